@@ -1,0 +1,20 @@
+//! Scenes as every method here sees them: indexed triangles with Lambert + isotropic GGX materials,
+//! point-like primary lights, emissive triangles, cameras.
+//!
+//! Units: lengths in metres, radiance in W·m⁻²·sr⁻¹ (linear Rec. 709), point lights by radiant
+//! intensity in W·sr⁻¹, directional lights by irradiance on a facing plane in W·m⁻². The photometric
+//! numbers of `KHR_lights_punctual` (candela, lux) are taken as these radiometric ones unchanged.
+
+pub mod brdf;
+pub mod camera;
+pub mod light;
+pub mod material;
+mod scene;
+pub mod surface;
+
+pub use brdf::{Brdf, DBrdf};
+pub use camera::Camera;
+pub use light::Light;
+pub use material::{Material, Texture};
+pub use scene::{Scene, Triangle, Vertex};
+pub use surface::SurfacePoint;
