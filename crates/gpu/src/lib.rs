@@ -1,1 +1,33 @@
-//! placeholder
+//! The wgpu layer: device, timed passes, uniform batches, shader linking, the G-buffer, reflective
+//! shadow maps and the virtual lights that every many-light method shares.
+//!
+//! The only crate that names wgpu, which breaks several times a year: what leaves this crate are
+//! buffers, kernels and numbers.
+
+mod batches;
+mod buffer;
+mod device;
+mod error;
+mod frame;
+mod kernel;
+mod link;
+mod projection;
+mod raster;
+mod report;
+mod rsm;
+mod scene_buffers;
+mod solid_angle;
+mod virtual_light;
+
+pub use batches::UniformBatches;
+pub use buffer::Buffer;
+pub use device::Gpu;
+pub use error::Error;
+pub use frame::{GpuFrame, SurfaceRecord};
+pub use kernel::{Binding, Dispatch, Kernel, PassTime, Resource};
+pub use link::{Feature, link};
+pub use projection::Projection;
+pub use report::AdapterReport;
+pub use rsm::{Cell, Map, maps};
+pub use solid_angle::rectangle_solid_angle;
+pub use virtual_light::{VirtualLight, distribute};

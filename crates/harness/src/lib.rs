@@ -1,1 +1,34 @@
-//! placeholder
+//! Experiments, budgets, tables, plots and the command line `manylights`.
+//!
+//! An experiment file ([`cli`] `run`) becomes variants (method × parameters), each of which runs on
+//! each scene by the clock, is compared with the path-traced references and written down as one cell
+//! of `cells.jsonl`. Tables, curves and sheets are made of the cells alone. Infrastructure never
+//! names a method: [`registry::METHODS`] is the only list.
+
+mod answer;
+mod cell;
+pub mod cli;
+mod commands;
+mod curves;
+mod error;
+mod experiment;
+mod journal;
+mod lettering;
+mod measure;
+mod names;
+mod numbers;
+mod output;
+mod plan;
+mod progress;
+mod provenance;
+mod reference;
+pub mod registry;
+mod session;
+mod settings;
+mod sheet;
+mod stage;
+mod statistics;
+mod style;
+mod table;
+
+pub use error::Failure;

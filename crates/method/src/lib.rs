@@ -1,1 +1,130 @@
-//! placeholder
+//! The trait that every rendering method implements, and what it is told.
+//!
+//! A method never sees the clock, the budget, the reference or the file system. It is progressive:
+//! [`Method::prepare`], then [`Run::step`] until it says that it is done, then [`Run::resolve`].
+
+mod parameters;
+mod transport;
+
+use manylights_gpu::GpuFrame;
+use manylights_metrics::RadianceImage;
+use manylights_scene::{Camera, Scene};
+
+pub use parameters::{ParameterInfo, ParameterKind, Parameters};
+pub use transport::{Transport, Visibility};
+
+/// Where the work of a method is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Processor {
+    /// All cores of the host; [`Frame::gpu`] may be absent.
+    Cpu,
+    /// The adapter; [`Frame::gpu`] is present.
+    Gpu,
+}
+
+/// One picture to make.
+#[derive(Clone, Copy)]
+pub struct Frame<'a> {
+    /// Triangles, materials, lights.
+    pub scene: &'a Scene,
+    /// Its pixel centres are the primary hits of every method and of the reference.
+    pub camera: &'a Camera,
+    /// Width, height in pixels.
+    pub resolution: [u32; 2],
+    /// Which light paths count.
+    pub transport: Transport,
+    /// Same seed, same picture, bit for bit, on one adapter.
+    pub seed: u64,
+    /// The scene on the adapter and its G-buffer for this camera.
+    pub gpu: Option<&'a GpuFrame>,
+}
+
+/// How far a run is, in the method's own unit of work (virtual lights, samples a pixel).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Work done.
+    pub done: u64,
+    /// Work in all.
+    pub total: u64,
+}
+
+impl Progress {
+    /// Whether nothing is left to do.
+    pub fn finished(self) -> bool {
+        self.done >= self.total
+    }
+}
+
+/// The time that one pass took, by the processor's own clock.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassTime {
+    /// `distribute`, `gather`, …
+    pub pass: &'static str,
+    /// Seconds, summed over the run so far.
+    pub seconds: f64,
+}
+
+/// What a method has to say when it cannot go on.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The scene or the transport is outside what the method computes. Not a failure: the table
+    /// shows the reason.
+    #[error("{0}")]
+    Declined(String),
+    /// Something broke.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl From<manylights_gpu::Error> for Error {
+    fn from(error: manylights_gpu::Error) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+/// A rendering method.
+pub trait Method: Sync {
+    /// Its name on the command line and in results: lower case, digits and hyphens.
+    fn id(&self) -> &'static str;
+
+    /// One line for lists and legends, with its source.
+    fn title(&self) -> &'static str;
+
+    /// Where it works.
+    fn processor(&self) -> Processor;
+
+    /// What can be set with `--set KEY=VALUE`.
+    fn parameters(&self) -> &'static [ParameterInfo];
+
+    /// Checks that the method can make this picture and sets up what does not depend on the amount
+    /// of work: pipelines, acceleration structures.
+    ///
+    /// # Errors
+    /// [`Error::Declined`] with a reason where the scene or transport is not the method's.
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error>;
+}
+
+/// One picture in the making.
+pub trait Run {
+    /// Does the next slice of work and waits for its end.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] where the device gave up.
+    fn step(&mut self) -> Result<Progress, Error>;
+
+    /// The picture of the work done so far. May be called after any step.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] where the device gave up.
+    fn resolve(&mut self) -> Result<RadianceImage, Error>;
+
+    /// What the run has counted: `lights`, `rays`, …
+    fn counters(&self) -> Vec<(&'static str, u64)>;
+
+    /// The time of each pass so far.
+    fn pass_times(&self) -> Vec<PassTime>;
+}

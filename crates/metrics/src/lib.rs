@@ -1,1 +1,21 @@
-//! placeholder
+//! Radiance images and the errors between them.
+//!
+//! [`RadianceImage`] holds linear Rec. 709 radiance; it is read from and written to OpenEXR and shown
+//! as PNG. [`compare_linear`] and [`compare_display`] measure how far one picture is from another,
+//! [`METRICS`] names what they measure, [`false_color`] shows where. Nothing skips a pixel: one that
+//! is infinite or not a number is an error that names it.
+
+mod compare;
+mod error;
+mod exr_file;
+mod false_color;
+mod file;
+mod image;
+mod png_file;
+mod srgb;
+mod ssim;
+
+pub use compare::{Errors, METRICS, MetricInfo, compare, compare_display, compare_linear};
+pub use error::Error;
+pub use false_color::false_color;
+pub use image::RadianceImage;

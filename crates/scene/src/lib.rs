@@ -6,15 +6,24 @@
 //! numbers of `KHR_lights_punctual` (candela, lux) are taken as these radiometric ones unchanged.
 
 pub mod brdf;
+pub mod builtin;
+pub mod bvh;
 pub mod camera;
+mod error;
+mod gltf;
 pub mod light;
+mod load;
 pub mod material;
+mod mesh;
 mod scene;
+mod scene_file;
 pub mod surface;
 
 pub use brdf::{Brdf, DBrdf};
 pub use camera::Camera;
+pub use error::LoadError;
 pub use light::Light;
+pub use load::{SceneEntry, SceneKind, list, load};
 pub use material::{Material, Texture};
 pub use scene::{Scene, Triangle, Vertex};
 pub use surface::SurfacePoint;

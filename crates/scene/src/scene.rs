@@ -1,7 +1,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
-use crate::{Camera, Light, Material, SurfacePoint, Texture};
+use crate::{Camera, Light, LoadError, Material, SurfacePoint, Texture};
 
 /// A vertex; the same 32 bytes go to the GPU.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -49,6 +49,24 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The camera of that name, or the default one.
+    ///
+    /// # Errors
+    /// Where there is none of that name (the nearest is suggested) or none at all.
+    pub fn camera(&self, name: Option<&str>) -> Result<&Camera, LoadError> {
+        let place = format!("scene `{}`", self.name);
+        match name {
+            Some(name) => self.cameras.iter().find(|camera| camera.name == name).ok_or_else(|| {
+                let names = self.cameras.iter().map(|camera| camera.name.as_str());
+                LoadError::unknown(place, "camera", name, names)
+            }),
+            None => self
+                .cameras
+                .first()
+                .ok_or_else(|| LoadError::new(place, "has no camera", "add one in a scene file")),
+        }
+    }
+
     /// Lower and upper corner of all triangles; zeros for an empty scene.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let mut corners = self

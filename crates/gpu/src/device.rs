@@ -1,0 +1,113 @@
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock};
+
+use crate::{AdapterReport, Error, Kernel};
+
+/// An open adapter. Clones share it.
+#[derive(Clone)]
+pub struct Gpu {
+    pub(crate) shared: Arc<Shared>,
+}
+
+pub(crate) struct Shared {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) report: AdapterReport,
+    pub(crate) limits: wgpu::Limits,
+    /// Timestamps exist on every Vulkan, Metal and DX12 adapter of note; without them only wall
+    /// clock is reported.
+    pub(crate) timestamps: bool,
+    /// Kernels by their WGSL. llvmpipe compiles at the first dispatch of a pipeline, so a pipeline
+    /// that was warmed up must be the one that is timed.
+    pub(crate) kernels: Mutex<HashMap<String, Arc<Kernel>>>,
+    pub(crate) visibility: OnceLock<wgpu::RenderPipeline>,
+}
+
+impl Gpu {
+    /// Opens the adapter whose name contains `adapter` (case-insensitive); without it the one named by
+    /// `WGPU_ADAPTER_NAME`, else the first of: discrete, integrated, any.
+    ///
+    /// # Errors
+    /// No adapter, none of that name (those that exist are listed), or it refuses a device.
+    pub fn new(adapter: Option<&str>) -> Result<Self, Error> {
+        let instance =
+            wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
+        let wanted = adapter.map(str::to_owned).or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok());
+        let adapter = choose(adapters, wanted.as_deref())?;
+        let timestamps = adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+        let limits = adapter.limits();
+        let request = adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("manylights"),
+            required_features: if timestamps {
+                wgpu::Features::TIMESTAMP_QUERY
+            } else {
+                wgpu::Features::empty()
+            },
+            required_limits: limits.clone(),
+            ..Default::default()
+        });
+        let info = adapter.get_info();
+        let (device, queue) = pollster::block_on(request)
+            .map_err(|e| Error::new(format!("adapter `{}` gave no device: {e}", info.name)))?;
+        let report = AdapterReport::new(&info, &limits);
+        let shared = Shared {
+            device,
+            queue,
+            report,
+            limits,
+            timestamps,
+            kernels: Mutex::default(),
+            visibility: OnceLock::new(),
+        };
+        Ok(Self { shared: Arc::new(shared) })
+    }
+
+    /// Name, driver and limits, for the provenance of results.
+    pub fn report(&self) -> &AdapterReport {
+        &self.shared.report
+    }
+
+    pub(crate) fn device(&self) -> &wgpu::Device {
+        &self.shared.device
+    }
+
+    /// Runs `work` and turns any validation or memory error of the device into an [`Error`].
+    pub(crate) fn checked<T>(&self, what: &str, work: impl FnOnce() -> T) -> Result<T, Error> {
+        let memory = self.device().push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validation = self.device().push_error_scope(wgpu::ErrorFilter::Validation);
+        let value = work();
+        let invalid = pollster::block_on(validation.pop());
+        let exhausted = pollster::block_on(memory.pop());
+        match invalid.or(exhausted) {
+            Some(error) => Err(Error::new(format!("{what}: {error}"))),
+            None => Ok(value),
+        }
+    }
+}
+
+fn choose(
+    adapters: Vec<wgpu::Adapter>,
+    wanted: Option<&str>,
+) -> Result<wgpu::Adapter, Error> {
+    let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        _ => 2,
+    };
+    let matches = |adapter: &wgpu::Adapter| {
+        wanted.is_none_or(|wanted| {
+            adapter.get_info().name.to_lowercase().contains(&wanted.to_lowercase())
+        })
+    };
+    adapters.into_iter().filter(matches).min_by_key(rank).ok_or_else(|| match wanted {
+        Some(wanted) if !names.is_empty() => {
+            Error::new(format!("no adapter named `{wanted}`: there are {}", names.join(", ")))
+        }
+        _ => Error::new(
+            "no GPU adapter: install a Vulkan driver (on Debian or Ubuntu without a GPU: \
+             mesa-vulkan-drivers and libvulkan1; scripts/bench does it)",
+        ),
+    })
+}

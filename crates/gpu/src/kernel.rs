@@ -1,0 +1,254 @@
+use std::sync::Arc;
+
+use crate::{Buffer, Error, Gpu, UniformBatches};
+
+/// The kind of a binding of group 0, in the order of their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Binding {
+    /// `var<storage, read>`.
+    Storage,
+    /// `var<storage, read_write>`.
+    StorageMut,
+    /// `var<uniform>`.
+    Uniform,
+    /// `var<uniform>` behind a dynamic offset: one of [`UniformBatches`].
+    Batch,
+    /// `texture_2d<u32>`.
+    TextureUint,
+}
+
+/// A compute pipeline with its one bind group layout.
+pub struct Kernel {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+/// What is bound.
+#[derive(Clone, Copy)]
+pub enum Resource<'a> {
+    /// A whole buffer.
+    Buffer(&'a Buffer),
+    /// One batch.
+    Batch(&'a UniformBatches, usize),
+    #[doc(hidden)]
+    Texture(&'a wgpu::TextureView),
+}
+
+/// One compute pass.
+pub struct Dispatch<'a> {
+    /// What it does, as timings name it: `distribute`, `gather`, …
+    pub pass: &'static str,
+    /// Its pipeline.
+    pub kernel: &'a Kernel,
+    /// In the order of the kernel's bindings.
+    pub resources: &'a [Resource<'a>],
+    /// Workgroups in x, y, z.
+    pub workgroups: [u32; 3],
+}
+
+/// The time that a pass took on the adapter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PassTime {
+    /// [`Dispatch::pass`].
+    pub pass: &'static str,
+    /// Seconds between the timestamps around it; `None` on an adapter without timestamps.
+    pub seconds: Option<f64>,
+}
+
+impl Gpu {
+    /// The kernel of a WGSL module with one entry point; compiled once for each text.
+    ///
+    /// All methods under comparison get the same run-time checks: those that wgpu turns on.
+    ///
+    /// # Errors
+    /// Where the WGSL or its bindings are invalid.
+    pub fn kernel(
+        &self,
+        label: &str,
+        wgsl: &str,
+        bindings: &[Binding],
+    ) -> Result<Arc<Kernel>, Error> {
+        let mut kernels = self.shared.kernels.lock().unwrap_or_else(|poison| poison.into_inner());
+        if let Some(kernel) = kernels.get(wgsl) {
+            return Ok(kernel.clone());
+        }
+        let kernel = Arc::new(self.checked(label, || self.compile(label, wgsl, bindings))?);
+        kernels.insert(wgsl.to_owned(), kernel.clone());
+        Ok(kernel)
+    }
+
+    fn compile(&self, label: &str, wgsl: &str, bindings: &[Binding]) -> Kernel {
+        let device = self.device();
+        let entries: Vec<_> =
+            bindings.iter().enumerate().map(|(index, kind)| entry(index as u32, *kind)).collect();
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &entries,
+        });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+        });
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(label),
+            layout: Some(&pipeline_layout),
+            module: &module,
+            entry_point: None,
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        Kernel { pipeline, layout }
+    }
+
+    /// Runs the passes in order, waits for their end and returns the time of each.
+    ///
+    /// # Errors
+    /// Where a binding does not fit or the device was lost.
+    pub fn run(&self, dispatches: &[Dispatch<'_>]) -> Result<Vec<PassTime>, Error> {
+        self.timed(dispatches.len() as u32, |encoder, queries| {
+            for (index, dispatch) in dispatches.iter().enumerate() {
+                self.encode(encoder, dispatch, queries, index as u32);
+            }
+        })
+        .map(|seconds| {
+            let pass_time = |(dispatch, seconds): (&Dispatch<'_>, _)| PassTime {
+                pass: dispatch.pass,
+                seconds,
+            };
+            dispatches.iter().zip(seconds).map(pass_time).collect()
+        })
+    }
+
+    fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        dispatch: &Dispatch<'_>,
+        queries: Option<&wgpu::QuerySet>,
+        index: u32,
+    ) {
+        let entries: Vec<_> = dispatch
+            .resources
+            .iter()
+            .enumerate()
+            .map(|(binding, resource)| wgpu::BindGroupEntry {
+                binding: binding as u32,
+                resource: resource.binding(),
+            })
+            .collect();
+        let group = self.device().create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(dispatch.pass),
+            layout: &dispatch.kernel.layout,
+            entries: &entries,
+        });
+        let offsets: Vec<_> =
+            dispatch.resources.iter().filter_map(Resource::dynamic_offset).collect();
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(dispatch.pass),
+            timestamp_writes: queries.map(|query_set| wgpu::ComputePassTimestampWrites {
+                query_set,
+                beginning_of_pass_write_index: Some(2 * index),
+                end_of_pass_write_index: Some(2 * index + 1),
+            }),
+        });
+        pass.set_pipeline(&dispatch.kernel.pipeline);
+        pass.set_bind_group(0, &group, &offsets);
+        let [x, y, z] = dispatch.workgroups;
+        pass.dispatch_workgroups(x, y, z);
+    }
+
+    /// Encodes, submits and waits; `passes` pairs of timestamps come back in seconds.
+    pub(crate) fn timed(
+        &self,
+        passes: u32,
+        encode: impl FnOnce(&mut wgpu::CommandEncoder, Option<&wgpu::QuerySet>),
+    ) -> Result<Vec<Option<f64>>, Error> {
+        let device = self.device();
+        let queries = self.shared.timestamps.then(|| {
+            device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("timestamps"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * passes,
+            })
+        });
+        let size = u64::from(passes) * 16;
+        let mut staging = None;
+        self.checked("passes", || {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            encode(&mut encoder, queries.as_ref());
+            if let Some(queries) = &queries {
+                let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
+                let resolved = self.scratch("timestamps", size, usage);
+                let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
+                let target = self.scratch("timestamps", size, usage);
+                encoder.resolve_query_set(queries, 0..2 * passes, &resolved, 0);
+                encoder.copy_buffer_to_buffer(&resolved, 0, &target, 0, size);
+                staging = Some(target);
+            }
+            self.shared.queue.submit([encoder.finish()]);
+        })?;
+        let Some(staging) = staging else {
+            self.wait()?;
+            return Ok(vec![None; passes as usize]);
+        };
+        let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&self.mapped(&staging)?);
+        let period = f64::from(self.shared.queue.get_timestamp_period()) * 1e-9;
+        let seconds = |pair: &[u64]| Some(pair[1].saturating_sub(pair[0]) as f64 * period);
+        Ok(ticks.chunks_exact(2).map(seconds).collect())
+    }
+
+    fn scratch(&self, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        self.device().create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
+    }
+}
+
+impl Resource<'_> {
+    pub(crate) fn binding(&self) -> wgpu::BindingResource<'_> {
+        match self {
+            Self::Buffer(buffer) => buffer.raw.as_entire_binding(),
+            Self::Batch(batches, _) => wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer: &batches.buffer.raw,
+                offset: 0,
+                size: wgpu::BufferSize::new(batches.batch_size),
+            }),
+            Self::Texture(view) => wgpu::BindingResource::TextureView(view),
+        }
+    }
+
+    fn dynamic_offset(&self) -> Option<u32> {
+        match self {
+            Self::Batch(batches, index) => Some(*index as u32 * batches.stride),
+            _ => None,
+        }
+    }
+}
+
+fn entry(binding: u32, kind: Binding) -> wgpu::BindGroupLayoutEntry {
+    let buffer = |ty, has_dynamic_offset| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset,
+        min_binding_size: None,
+    };
+    let ty = match kind {
+        Binding::Storage => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false),
+        Binding::StorageMut => buffer(wgpu::BufferBindingType::Storage { read_only: false }, false),
+        Binding::Uniform => buffer(wgpu::BufferBindingType::Uniform, false),
+        Binding::Batch => buffer(wgpu::BufferBindingType::Uniform, true),
+        Binding::TextureUint => wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Uint,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        },
+    };
+    let visibility = wgpu::ShaderStages::COMPUTE;
+    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
+}

@@ -1,0 +1,44 @@
+//! Shader linking: WESL modules to WGSL, in one place.
+
+use std::borrow::Cow;
+
+use wesl::syntax::{ModulePath, PathOrigin};
+use wesl::{CompileOptions, EscapeMangler, Features, VirtualResolver};
+
+use crate::Error;
+
+/// A switch of conditional translation (`@if(name)`) and its position.
+pub type Feature<'a> = (&'a str, bool);
+
+/// Modules that every shader may import as `package::NAME`.
+const SHARED: [(&str, &str); 3] = [
+    ("brdf", include_str!("shaders/brdf.wesl")),
+    ("surface", include_str!("shaders/surface.wesl")),
+    ("scene", include_str!("shaders/scene.wesl")),
+];
+
+/// The WGSL of the module `source`, with what it imports and nothing that it does not reach: a
+/// pipeline for a scene without a lobe holds no code of that lobe.
+///
+/// # Errors
+/// A syntax error, an unknown import or a feature without a position, with the module's name.
+pub fn link(name: &str, source: &str, features: &[Feature<'_>]) -> Result<String, Error> {
+    let mut resolver = VirtualResolver::new();
+    for (shared, text) in SHARED {
+        resolver.add_module(path(shared), Cow::Borrowed(text));
+    }
+    resolver.add_module(path(name), Cow::Borrowed(source));
+    let flags = features.iter().map(|&(name, on)| (name.to_owned(), on.into())).collect();
+    let options = CompileOptions {
+        // A feature that nobody set is a mistake, not `false`.
+        features: Features { default: wesl::Feature::Error, flags },
+        ..Default::default()
+    };
+    wesl::compile(&path(name), &resolver, &EscapeMangler, &options)
+        .map(|linked| linked.to_string())
+        .map_err(|e| Error::new(format!("shader `{name}`: {e}")))
+}
+
+fn path(name: &str) -> ModulePath {
+    ModulePath { origin: PathOrigin::Absolute, components: vec![name.to_owned()] }
+}

@@ -1,0 +1,166 @@
+//! Cells condensed to one row for each variant on each scene.
+
+use std::collections::BTreeMap;
+
+use manylights_metrics::{Errors, METRICS};
+
+use crate::cell::{Cell, Comparison, Done, Outcome};
+use crate::experiment::Experiment;
+use crate::plan::Turn;
+use crate::session::SceneCells;
+use crate::statistics::{Quartiles, median, quartiles};
+
+/// A scene of the answer.
+pub(crate) struct SceneAnswer {
+    /// Its name.
+    pub(crate) scene: String,
+    /// One for each variant, in the order of the experiment.
+    pub(crate) rows: Vec<Row>,
+}
+
+/// A variant on a scene.
+pub(crate) struct Row {
+    /// Index into the experiment's variants.
+    pub(crate) variant: usize,
+    /// What came out.
+    pub(crate) result: RowResult,
+}
+
+/// What came out of a variant on a scene.
+pub(crate) enum RowResult {
+    /// Pictures.
+    Done(Box<Medians>),
+    /// The first reason that a cell gave.
+    Declined(String),
+    /// The first reason that a cell gave.
+    Failed(String),
+}
+
+/// Medians over seeds and repetitions.
+pub(crate) struct Medians {
+    /// Of the work, over all runs.
+    pub(crate) seconds: Quartiles,
+    /// Of the preparation.
+    pub(crate) prepare_seconds: f64,
+    /// Key of the cell whose picture stands for the row: the first seed's.
+    pub(crate) key: String,
+    /// By visibility of the reference; medians over seeds.
+    pub(crate) errors: BTreeMap<String, Comparison>,
+}
+
+impl Row {
+    /// The medians, where there are pictures.
+    pub(crate) fn medians(&self) -> Option<&Medians> {
+        match &self.result {
+            RowResult::Done(medians) => Some(medians),
+            _ => None,
+        }
+    }
+}
+
+impl SceneAnswer {
+    /// Condenses the cells of a scene.
+    pub(crate) fn new(experiment: &Experiment, scene: &SceneCells) -> Self {
+        let rows = (0..experiment.variants.len())
+            .map(|variant| {
+                let cells: Vec<_> =
+                    scene.cells.iter().filter(|(turn, _)| turn.variant == variant).collect();
+                Row { variant, result: result(&cells) }
+            })
+            .collect();
+        Self { scene: scene.scene.clone(), rows }
+    }
+
+    /// Noise of a reference as (radiance, sRGB); `None` where nothing was compared with it.
+    pub(crate) fn floor(&self, reference: &str) -> Option<(f64, f64)> {
+        self.rows.iter().find_map(|row| {
+            let comparison = row.medians()?.errors.get(reference)?;
+            Some((comparison.linear_floor, comparison.display_floor))
+        })
+    }
+
+    /// Ranks by RMSE of sRGB values against a reference, best first. Rows that are closer to the
+    /// best of their rank than the noise of the reference share it. `None` for rows without pictures.
+    pub(crate) fn ranks(&self, reference: &str) -> Vec<Option<Rank>> {
+        let floor = self.floor(reference).map_or(0.0, |(_, display)| display);
+        let error = |row: &Row| Some(row.medians()?.errors.get(reference)?.display.rmse);
+        let mut order: Vec<(usize, f64)> =
+            self.rows.iter().enumerate().filter_map(|(i, row)| Some((i, error(row)?))).collect();
+        order.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let mut ranks = vec![None; self.rows.len()];
+        let mut start = 0;
+        while start < order.len() {
+            let same = order[start..].iter().take_while(|(_, e)| e - order[start].1 <= floor);
+            let end = start + same.count();
+            for &(index, _) in &order[start..end] {
+                ranks[index] = Some(Rank { place: start + 1, shared: end - start > 1 });
+            }
+            start = end;
+        }
+        ranks
+    }
+}
+
+/// A place among the rows of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rank {
+    /// From 1.
+    pub(crate) place: usize,
+    /// Others are closer than the noise of the reference.
+    pub(crate) shared: bool,
+}
+
+fn result(cells: &[&(Turn, Cell)]) -> RowResult {
+    let mut done = Vec::new();
+    let mut declined = None;
+    for (turn, cell) in cells {
+        match &cell.outcome {
+            Outcome::Done(cell_done) => done.push((turn, cell, cell_done.as_ref())),
+            Outcome::Declined { reason } => declined = Some(reason.clone()),
+            // One failure fails the row: a median of the rest would hide it.
+            Outcome::Failed { reason } => return RowResult::Failed(reason.clone()),
+        }
+    }
+    let seconds = quartiles(done.iter().map(|(_, _, done)| done.step_seconds));
+    let (Some(seconds), Some(first)) = (seconds, done.first()) else {
+        return RowResult::Declined(declined.unwrap_or_else(|| "no run".to_owned()));
+    };
+    // Repetitions of a seed have the same picture: they are not independent errors.
+    let pictures: Vec<&Done> =
+        done.iter().filter(|(turn, ..)| turn.repetition == 0).map(|(.., done)| *done).collect();
+    let prepare = median(done.iter().map(|(_, _, done)| done.prepare_seconds));
+    RowResult::Done(Box::new(Medians {
+        seconds,
+        prepare_seconds: prepare.expect("there is a first"),
+        key: first.1.key.clone(),
+        errors: first.2.errors.keys().map(|r| (r.clone(), median_errors(&pictures, r))).collect(),
+    }))
+}
+
+fn median_errors(pictures: &[&Done], reference: &str) -> Comparison {
+    let comparisons: Vec<Comparison> =
+        pictures.iter().filter_map(|done| done.errors.get(reference).copied()).collect();
+    let of = |value: &dyn Fn(&Comparison) -> f64| {
+        median(comparisons.iter().map(value)).expect("every picture is compared with it")
+    };
+    let errors = |side: &dyn Fn(&Comparison) -> Errors| Errors {
+        rmse: of(&|c| side(c).rmse),
+        mse: of(&|c| side(c).mse),
+        mae: of(&|c| side(c).mae),
+        psnr: of(&|c| side(c).psnr),
+        ssim: of(&|c| side(c).ssim),
+        rel_mse: of(&|c| side(c).rel_mse),
+        smape: of(&|c| side(c).smape),
+    };
+    Comparison {
+        linear: errors(&|c| c.linear),
+        display: errors(&|c| c.display),
+        linear_floor: of(&|c| c.linear_floor),
+        display_floor: of(&|c| c.display_floor),
+    }
+}
+
+/// The value of each metric, for files that hold them all.
+pub(crate) fn values(errors: &Errors) -> impl Iterator<Item = (&'static str, f64)> {
+    METRICS.iter().map(move |metric| (metric.id, (metric.value)(errors)))
+}

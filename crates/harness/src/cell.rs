@@ -1,0 +1,175 @@
+//! One line of `cells.jsonl`: a run of one variant on one scene, with all that it depends on.
+
+use std::collections::BTreeMap;
+
+use manylights_metrics::{Errors, RadianceImage};
+use serde::{Deserialize, Serialize};
+
+use crate::provenance::{Provenance, sha256};
+
+/// What decides the picture and its errors, and where its time was taken.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Inputs {
+    /// Name of the scene.
+    pub(crate) scene: String,
+    /// Hash of its triangles, materials, lights and camera.
+    pub(crate) scene_content: String,
+    /// Method.
+    pub(crate) method: String,
+    /// All of its parameters.
+    pub(crate) parameters: BTreeMap<String, f64>,
+    /// Same seed, same picture.
+    pub(crate) seed: u64,
+    /// Which of the timed runs.
+    pub(crate) repetition: u32,
+    /// Light paths.
+    pub(crate) transport: String,
+    /// Width, height in pixels.
+    pub(crate) resolution: [u32; 2],
+    /// Factor from radiance to display-referred values.
+    pub(crate) exposure: f32,
+    /// The references that it is compared with: samples a pixel by visibility.
+    pub(crate) references: BTreeMap<String, u32>,
+}
+
+impl Inputs {
+    /// Names the cell: the hash of the inputs, the program and the machine. A cell of the same key
+    /// need not run again.
+    pub(crate) fn key(&self, provenance: &Provenance) -> String {
+        let text = serde_json::to_string(&(self, provenance)).expect("inputs are plain data");
+        sha256(text.as_bytes())
+    }
+}
+
+/// A finished cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Cell {
+    /// See [`Inputs::key`].
+    pub(crate) key: String,
+    /// What was asked.
+    #[serde(flatten)]
+    pub(crate) inputs: Inputs,
+    /// What came out.
+    #[serde(flatten)]
+    pub(crate) outcome: Outcome,
+    /// Program and machine.
+    pub(crate) provenance: Provenance,
+}
+
+/// How a cell ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "outcome", rename_all = "lowercase")]
+pub(crate) enum Outcome {
+    /// With a picture.
+    Done(Box<Done>),
+    /// The scene or the transport is not the method's.
+    Declined {
+        /// In words.
+        reason: String,
+    },
+    /// The device gave up, or pixels are not finite: the comparison fails.
+    Failed {
+        /// In words.
+        reason: String,
+    },
+}
+
+/// Times, counts and errors of a picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Done {
+    /// Visibility of the last segment that the method computes, where it is a choice.
+    pub(crate) visibility: Option<String>,
+    /// Wall clock of what does not depend on the amount of work.
+    pub(crate) prepare_seconds: f64,
+    /// Wall clock of the work. Warmed up; without read-back, metrics and files.
+    pub(crate) step_seconds: f64,
+    /// By the processor's own clock.
+    pub(crate) pass_seconds: BTreeMap<String, f64>,
+    /// What the method counted.
+    pub(crate) counters: BTreeMap<String, u64>,
+    /// Of the pixels' bits, row by row, little endian.
+    pub(crate) image_sha256: String,
+    /// By visibility of the reference.
+    pub(crate) errors: BTreeMap<String, Comparison>,
+}
+
+/// Errors against one reference.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Comparison {
+    /// Of radiance, W·m⁻²·sr⁻¹.
+    pub(crate) linear: Errors,
+    /// Of sRGB values at the scene's exposure.
+    pub(crate) display: Errors,
+    /// Noise of the reference, as RMSE of radiance.
+    pub(crate) linear_floor: f64,
+    /// Noise of the reference, as RMSE of sRGB values.
+    pub(crate) display_floor: f64,
+}
+
+/// Hash of the bits of a picture.
+pub(crate) fn image_sha256(image: &RadianceImage) -> String {
+    let bytes: Vec<u8> =
+        image.pixels.iter().flatten().flat_map(|component| component.to_le_bytes()).collect();
+    sha256(&bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn inputs() -> Inputs {
+        Inputs {
+            scene: "s".into(),
+            scene_content: "c".into(),
+            method: "m".into(),
+            parameters: BTreeMap::from([("n".into(), 4.0)]),
+            seed: 1,
+            repetition: 0,
+            transport: "all".into(),
+            resolution: [16, 16],
+            exposure: 1.5,
+            references: BTreeMap::from([("traced".into(), 16)]),
+        }
+    }
+
+    #[test]
+    fn a_cell_survives_the_journal() {
+        let errors = Errors {
+            rmse: 0.1,
+            mse: 0.01,
+            mae: 0.1,
+            psnr: f64::INFINITY,
+            ssim: 0.5,
+            rel_mse: 0.3,
+            smape: 0.2,
+        };
+        let comparison =
+            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
+        let done = Done {
+            visibility: None,
+            prepare_seconds: 0.25,
+            step_seconds: 0.1 + 0.2,
+            pass_seconds: BTreeMap::from([("gather".into(), 0.125)]),
+            counters: BTreeMap::from([("rays".into(), u64::MAX)]),
+            image_sha256: image_sha256(&RadianceImage::black(1, 1)),
+            errors: BTreeMap::from([("traced".into(), comparison)]),
+        };
+        let provenance = Provenance::here(None);
+        let key = inputs().key(&provenance);
+        let outcome = Outcome::Done(Box::new(done));
+        let cell = Cell { key, inputs: inputs(), outcome, provenance };
+        let line = serde_json::to_string(&cell).expect("plain data");
+        assert!(!line.contains('\n'));
+        assert_eq!(serde_json::from_str::<Cell>(&line).expect("own line"), cell);
+    }
+
+    #[test]
+    fn the_key_depends_on_inputs_and_program() {
+        let here = Provenance::here(None);
+        let other_seed = Inputs { seed: 2, ..inputs() };
+        let other_program = Provenance { program: "another".into(), ..here.clone() };
+        assert_eq!(inputs().key(&here), inputs().key(&here));
+        assert_ne!(inputs().key(&here), other_seed.key(&here));
+        assert_ne!(inputs().key(&here), inputs().key(&other_program));
+    }
+}

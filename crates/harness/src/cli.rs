@@ -1,0 +1,169 @@
+//! The command line: a contract that other tools call.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Args, Parser, Subcommand};
+use manylights_method::{Transport, Visibility};
+
+use crate::commands;
+use crate::error::{Failure, one_line};
+use crate::experiment::Profile;
+use crate::settings;
+
+#[derive(Parser)]
+#[command(name = "manylights", version, about = "Compares many-light global-illumination methods with a path-traced reference")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Lists methods, scenes or experiments
+    List(ListArguments),
+    /// Renders one picture
+    Render(RenderArguments),
+    /// Prints the errors of a picture against a reference
+    Metrics(MetricsArguments),
+    /// Runs an experiment and writes tables, curves and pictures
+    Run(RunArguments),
+}
+
+/// What `list` shows.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Listed {
+    Methods,
+    Scenes,
+    Experiments,
+}
+
+#[derive(Args)]
+pub(crate) struct ListArguments {
+    /// What to list
+    pub(crate) what: Listed,
+    /// As JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Where things are on this machine.
+#[derive(Args)]
+pub(crate) struct Machine {
+    /// Adapter whose name contains this
+    #[arg(long, value_name = "NAME", env = "WGPU_ADAPTER_NAME")]
+    pub(crate) adapter: Option<String>,
+    /// Folder of the scene files' glTF assets
+    #[arg(long, value_name = "DIR", env = "MANYLIGHTS_ASSETS")]
+    pub(crate) assets: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub(crate) struct RenderArguments {
+    /// Built-in scene, scenes/NAME.toml, or a .toml, .glb or .gltf file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) scene: String,
+    /// Method (see `list methods`)
+    #[arg(long, value_name = "ID")]
+    pub(crate) method: String,
+    /// Sets a parameter of the method
+    #[arg(long, value_name = "KEY=VALUE", value_parser = settings::split)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Light paths: direct, indirect-1 (or another number of bounces), all
+    #[arg(long, default_value = "indirect-1", value_name = "PATHS")]
+    pub(crate) transport: Transport,
+    /// Of the last segment of indirect-1: traced, ignored [default: what the method computes]
+    #[arg(long, value_name = "VISIBILITY")]
+    pub(crate) visibility: Option<Visibility>,
+    /// Size of the picture
+    #[arg(long, default_value = "512x512", value_name = "WxH", value_parser = settings::resolution)]
+    pub(crate) resolution: [u32; 2],
+    /// Camera of the scene [default: its first]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) camera: Option<String>,
+    /// Same seed, same picture
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pub(crate) seed: u64,
+    /// Radiance; a PNG at the scene's exposure is written beside it
+    #[arg(short, long, value_name = "OUT.exr")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) machine: Machine,
+}
+
+#[derive(Args)]
+pub(crate) struct MetricsArguments {
+    /// Picture to judge
+    pub(crate) image: PathBuf,
+    /// What it should be
+    pub(crate) reference: PathBuf,
+    /// Exposure of the display-referred errors
+    #[arg(long, default_value_t = 1.0, value_name = "FACTOR")]
+    pub(crate) exposure: f32,
+    /// As JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct RunArguments {
+    /// Experiment file
+    pub(crate) experiment: PathBuf,
+    /// How large
+    #[arg(long, value_enum, default_value = "standard")]
+    pub(crate) profile: Profile,
+    /// Folder of the results [default: that of the experiment file]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Folder of references [default: manylights/references in the user's cache folder]
+    #[arg(long, value_name = "DIR", env = "MANYLIGHTS_CACHE")]
+    pub(crate) cache: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) machine: Machine,
+}
+
+/// Runs the program. Help and version go to standard output, as everywhere.
+///
+/// # Errors
+/// One line and an exit status; see [`Failure`].
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure> {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+            print!("{error}");
+            return Ok(());
+        }
+        Err(error) => return Err(Failure::BadInput(mend(&error))),
+    };
+    match cli.command {
+        Command::List(arguments) => commands::list::run(&arguments),
+        Command::Render(arguments) => commands::render::run(&arguments),
+        Command::Metrics(arguments) => commands::metrics::run(&arguments),
+        Command::Run(arguments) => commands::run::run(&arguments),
+    }
+}
+
+/// clap explains in paragraphs; the contract wants a line. Usage is left to `--help`.
+fn mend(error: &clap::Error) -> String {
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return "a command is missing: list, render, metrics or run; see manylights --help".into();
+    }
+    let text = error.to_string();
+    let explanation = text.split("\n\nUsage:").next().unwrap_or(&text);
+    let explanation = explanation.split("\n\nFor more information").next().unwrap_or(explanation);
+    let line = one_line(explanation);
+    format!("{}; see manylights --help", line.strip_prefix("error: ").unwrap_or(&line))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,123 @@
+//! `manylights list`.
+
+use std::path::{Path, PathBuf};
+
+use manylights_method::{Method, ParameterInfo, ParameterKind, Processor};
+use manylights_scene::SceneKind;
+use serde_json::{Value, json};
+
+use crate::cli::{ListArguments, Listed};
+use crate::error::Failure;
+use crate::experiment;
+use crate::registry::METHODS;
+
+/// Where `list experiments` looks.
+const RESULTS: &str = "results";
+
+/// Lists methods, scenes or experiments.
+///
+/// # Errors
+/// One line where an experiment file is malformed.
+pub(crate) fn run(arguments: &ListArguments) -> Result<(), Failure> {
+    let entries = match arguments.what {
+        Listed::Methods => METHODS.iter().map(|method| method_entry(*method)).collect(),
+        Listed::Scenes => scenes(),
+        Listed::Experiments => experiments()?,
+    };
+    if arguments.json {
+        println!("{}", Value::Array(entries.into_iter().map(|entry| entry.json).collect()));
+    } else {
+        for entry in entries {
+            eprintln!("{}", entry.text);
+        }
+    }
+    Ok(())
+}
+
+struct Entry {
+    text: String,
+    json: Value,
+}
+
+fn method_entry(method: &dyn Method) -> Entry {
+    let processor = match method.processor() {
+        Processor::Cpu => "cpu",
+        Processor::Gpu => "gpu",
+    };
+    let mut text = format!("{} ({processor}): {}", method.id(), method.title());
+    for info in method.parameters() {
+        text.push_str(&format!("\n  --set {}=N  {} ({})", info.name, info.help, range(info)));
+    }
+    let json = json!({
+        "id": method.id(),
+        "title": method.title(),
+        "processor": processor,
+        "parameters": method.parameters().iter().map(parameter_json).collect::<Vec<_>>(),
+    });
+    Entry { text, json }
+}
+
+fn range(info: &ParameterInfo) -> String {
+    match info.kind {
+        ParameterKind::Count { default, min, max } => {
+            format!("a whole number from {min} to {max}, default {default}")
+        }
+        ParameterKind::Real { default, min, max } => {
+            format!("a number from {min} to {max}, default {default}")
+        }
+    }
+}
+
+fn parameter_json(info: &ParameterInfo) -> Value {
+    let (kind, default, min, max) = match info.kind {
+        ParameterKind::Count { default, min, max } => {
+            ("count", json!(default), json!(min), json!(max))
+        }
+        ParameterKind::Real { default, min, max } => {
+            ("real", json!(default), json!(min), json!(max))
+        }
+    };
+    json!({
+        "name": info.name, "help": info.help, "kind": kind,
+        "default": default, "min": min, "max": max,
+    })
+}
+
+fn scenes() -> Vec<Entry> {
+    manylights_scene::list()
+        .into_iter()
+        .map(|scene| {
+            let kind = match scene.kind {
+                SceneKind::Builtin => "built-in",
+                SceneKind::File => "file",
+            };
+            Entry {
+                text: format!("{} ({kind}): {}", scene.name, scene.about),
+                json: json!({ "name": scene.name, "kind": kind, "about": scene.about }),
+            }
+        })
+        .collect()
+}
+
+fn experiments() -> Result<Vec<Entry>, Failure> {
+    let mut files: Vec<PathBuf> = Path::new(RESULTS)
+        .read_dir()
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|folder| folder.path().join("experiment.toml"))
+        .filter(|file| file.is_file())
+        .collect();
+    files.sort();
+    files.iter().map(|file| experiment_entry(file)).collect()
+}
+
+fn experiment_entry(file: &Path) -> Result<Entry, Failure> {
+    let name = file.display().to_string();
+    let (title, scenes) = experiment::summary(file)
+        .map_err(|reason| Failure::input(format!("{name}: {reason}")))?;
+    Ok(Entry {
+        text: format!("{name}: {title} ({})", scenes.join(", ")),
+        json: json!({ "file": name, "title": title, "scenes": scenes }),
+    })
+}

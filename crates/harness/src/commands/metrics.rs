@@ -1,0 +1,33 @@
+//! `manylights metrics`.
+
+use manylights_metrics::{METRICS, RadianceImage, compare_display, compare_linear};
+use serde_json::json;
+
+use crate::cli::MetricsArguments;
+use crate::error::Failure;
+
+/// Prints the errors of one picture against another.
+///
+/// # Errors
+/// One line where a file cannot be read, sizes differ or pixels are not finite.
+pub(crate) fn run(arguments: &MetricsArguments) -> Result<(), Failure> {
+    let image = RadianceImage::read_exr(&arguments.image).map_err(Failure::input)?;
+    let reference = RadianceImage::read_exr(&arguments.reference).map_err(Failure::input)?;
+    let linear = compare_linear(&image, &reference).map_err(Failure::input)?;
+    let exposure = arguments.exposure;
+    let display = compare_display(&image, &reference, exposure).map_err(Failure::input)?;
+    if arguments.json {
+        let report = json!({ "linear": linear, "display": display, "exposure": exposure });
+        println!("{report}");
+        return Ok(());
+    }
+    eprintln!("{:<8} {:>12} {:>12}  formula", "metric", "linear", "display");
+    for metric in METRICS {
+        let [linear, display] = [&linear, &display].map(|errors| (metric.value)(errors));
+        eprintln!("{:<8} {linear:>12.6} {display:>12.6}  {}", metric.id, metric.formula);
+    }
+    eprintln!(
+        "linear: radiance in W m^-2 sr^-1; display: sRGB values in [0, 1] at exposure {exposure}"
+    );
+    Ok(())
+}

@@ -1,0 +1,6 @@
+//! One module a command.
+
+pub(crate) mod list;
+pub(crate) mod metrics;
+pub(crate) mod render;
+pub(crate) mod run;

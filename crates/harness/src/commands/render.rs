@@ -1,0 +1,105 @@
+//! `manylights render`.
+
+use std::path::Path;
+
+use manylights_method::Visibility;
+
+use crate::cli::RenderArguments;
+use crate::error::Failure;
+use crate::experiment::has_last_segment;
+use crate::measure::{self, Measured};
+use crate::progress::Progress;
+use crate::provenance::Provenance;
+use crate::stage::{self, Stage};
+use crate::{output, registry, settings};
+
+/// Renders one picture to an EXR and a PNG.
+///
+/// # Errors
+/// One line: bad input before anything is rendered; a failed device or pixels that are not finite
+/// after the picture is written.
+pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
+    let method = registry::method(&arguments.method).map_err(Failure::input)?;
+    let pairs = arguments.set.iter().map(|(key, value)| (key.as_str(), value.as_str()));
+    let parameters = settings::parameters(method, pairs).map_err(Failure::input)?;
+    if arguments.visibility == Some(Visibility::Ignored) && !has_last_segment(arguments.transport) {
+        return Err(Failure::input("--visibility ignored needs --transport indirect-1"));
+    }
+    let (exr, png) = output::check_image(&arguments.output)?;
+    let scene = stage::load(&arguments.scene, arguments.machine.assets.as_deref())?;
+    let gpu = stage::open_gpu([method], arguments.machine.adapter.as_deref())?;
+    let camera = arguments.camera.as_deref();
+    let stage = Stage::new(&scene, camera, arguments.resolution, gpu.as_ref())?;
+    let mut progress = Progress::new(&format!("{} {}", scene.name, method.id()));
+    let measured = measure::measure(
+        method,
+        &stage.frame(arguments.transport, arguments.seed),
+        arguments.visibility,
+        &parameters,
+        &mut |at| progress.set(at.done, at.total),
+    )?;
+    drop(progress);
+    let mut facts = vec![
+        ("scene".to_owned(), scene.name.clone()),
+        ("camera".to_owned(), stage.camera.name.clone()),
+        ("method".to_owned(), method.id().to_owned()),
+        ("parameters".to_owned(), parameters.to_string()),
+        ("transport".to_owned(), measured.transport.to_string()),
+        ("seed".to_owned(), arguments.seed.to_string()),
+        ("exposure".to_owned(), scene.exposure.to_string()),
+    ];
+    if let Some(visibility) = measure::visibility(measured.transport) {
+        facts.push(("visibility".to_owned(), visibility.to_string()));
+    }
+    facts.extend(attributes(&Provenance::here(gpu.as_ref())));
+    write(&measured, &facts, &exr, &png, scene.exposure)?;
+    report(&measured, &exr, &png);
+    check_finite(&measured, &exr)
+}
+
+fn attributes(provenance: &Provenance) -> Vec<(String, String)> {
+    let adapter = provenance.adapter.as_ref().map(ToString::to_string);
+    let pairs = [
+        ("program", Some(provenance.program_name())),
+        ("system", Some(provenance.system.clone())),
+        ("cpu", Some(provenance.cpu.clone())),
+        ("adapter", adapter),
+    ];
+    pairs.into_iter().filter_map(|(name, text)| Some((name.to_owned(), text?))).collect()
+}
+
+fn write(
+    measured: &Measured,
+    facts: &[(String, String)],
+    exr: &Path,
+    png: &Path,
+    exposure: f32,
+) -> Result<(), Failure> {
+    // OpenEXR has names of its own: ours carry a prefix.
+    let facts: Vec<_> =
+        facts.iter().map(|(name, text)| (format!("manylights.{name}"), text.clone())).collect();
+    measured.image.write_exr(exr, &facts).map_err(Failure::input)?;
+    measured.image.write_png(png, exposure).map_err(Failure::input)
+}
+
+fn report(measured: &Measured, exr: &Path, png: &Path) {
+    let counters: Vec<_> = measured.counters.iter().map(|(name, n)| format!("{name} {n}")).collect();
+    eprintln!(
+        "{} and {}: prepared in {:.3} s, rendered in {:.3} s; {}",
+        exr.display(),
+        png.display(),
+        measured.prepare_seconds,
+        measured.step_seconds,
+        counters.join(", ")
+    );
+}
+
+fn check_finite(measured: &Measured, exr: &Path) -> Result<(), Failure> {
+    match measured.image.non_finite() {
+        0 => Ok(()),
+        count => Err(Failure::Failed(format!(
+            "{}: {count} pixels are not finite (magenta in the PNG)",
+            exr.display()
+        ))),
+    }
+}

@@ -1,0 +1,113 @@
+//! `manylights run`.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use manylights_scene::Scene;
+
+use crate::answer::{RowResult, SceneAnswer};
+use crate::cli::RunArguments;
+use crate::error::Failure;
+use crate::experiment::{self, Experiment};
+use crate::journal::Journal;
+use crate::provenance::Provenance;
+use crate::session::{SceneCells, Session};
+use crate::{curves, output, sheet, stage, table};
+
+/// Runs an experiment, or what is left of it, and writes the answer.
+///
+/// # Errors
+/// One line: bad input before anything is rendered; failed cells after everything is written.
+pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let file = &arguments.experiment;
+    let experiment = experiment::read(file, arguments.profile).map_err(Failure::input)?;
+    let beside = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let out = arguments.out.as_deref().or(beside).unwrap_or(Path::new("."));
+    output::check_directory(&out.join("cells"), "--out")?;
+    let cache = stage::reference_cache(arguments.cache.as_deref())?;
+    let scenes = load(&experiment, arguments.machine.assets.as_deref())?;
+    let methods = experiment.variants.iter().map(|variant| variant.method);
+    let gpu = stage::open_gpu(methods, arguments.machine.adapter.as_deref())?;
+    let machine = Provenance::here(gpu.as_ref());
+    let mut session = Session {
+        experiment: &experiment,
+        journal: Journal::open(out)?,
+        out,
+        cache: &cache,
+        on_cpu: Provenance { adapter: None, ..machine.clone() },
+        on_gpu: machine.clone(),
+        gpu,
+    };
+    let mut answers = Vec::with_capacity(scenes.len());
+    for scene in &scenes {
+        let cells = session.scene(scene)?;
+        let answer = SceneAnswer::new(&experiment, &cells);
+        write_sheet(&experiment, &cells, &answer, out)?;
+        answers.push(answer);
+    }
+    write_answer(&experiment, &answers, &machine, out)?;
+    check(&answers)
+}
+
+fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec<Scene>, Failure> {
+    let mut names = BTreeSet::new();
+    let mut scenes = Vec::with_capacity(experiment.scenes.len());
+    for what in &experiment.scenes {
+        let scene = stage::load(what, assets)?;
+        if !names.insert(scene.name.clone()) {
+            return Err(Failure::input(format!("scenes: `{}` is listed twice", scene.name)));
+        }
+        scenes.push(scene);
+    }
+    Ok(scenes)
+}
+
+fn write_sheet(
+    experiment: &Experiment,
+    cells: &SceneCells,
+    answer: &SceneAnswer,
+    out: &Path,
+) -> Result<(), Failure> {
+    let png = sheet::png(experiment, cells, answer, out)?;
+    let path = out.join(format!("sheet-{}.png", cells.scene));
+    output::write(&path, &png)
+}
+
+fn write_answer(
+    experiment: &Experiment,
+    answers: &[SceneAnswer],
+    machine: &Provenance,
+    out: &Path,
+) -> Result<(), Failure> {
+    let markdown = table::markdown(experiment, answers, machine);
+    let files = [
+        ("table.md", markdown),
+        ("table.csv", table::csv(experiment, answers)),
+        ("curves.svg", curves::svg(experiment, answers)?),
+    ];
+    for (name, text) in files {
+        let path = out.join(name);
+        output::write(&path, text.as_bytes())?;
+        eprintln!("{}", path.display());
+    }
+    for answer in answers {
+        eprintln!("{}", out.join(format!("sheet-{}.png", answer.scene)).display());
+    }
+    Ok(())
+}
+
+/// A cell that failed fails the comparison.
+fn check(answers: &[SceneAnswer]) -> Result<(), Failure> {
+    let rows = answers.iter().flat_map(|answer| answer.rows.iter().map(move |row| (answer, row)));
+    let mut failed = rows.filter_map(|(answer, row)| match &row.result {
+        RowResult::Failed(reason) => Some(format!("{}: {reason}", answer.scene)),
+        _ => None,
+    });
+    match failed.next() {
+        None => Ok(()),
+        Some(first) => {
+            let others = failed.count();
+            Err(Failure::Failed(format!("comparison failed: {first} ({others} more)")))
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! One run of a method, by the clock.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use manylights_method::{Error, Frame, Method, Parameters, Progress, Run, Transport, Visibility};
+use manylights_metrics::RadianceImage;
+
+/// What came out of a run.
+pub(crate) struct Measured {
+    /// The picture.
+    pub(crate) image: RadianceImage,
+    /// Visibility of the last segment that the method agreed to.
+    pub(crate) transport: Transport,
+    /// Wall clock of `prepare`: pipelines, acceleration structures.
+    pub(crate) prepare_seconds: f64,
+    /// Wall clock of all steps. Read-back, metrics and files are outside.
+    pub(crate) step_seconds: f64,
+    /// By the processor's own clock.
+    pub(crate) pass_seconds: BTreeMap<String, f64>,
+    /// What the method counted.
+    pub(crate) counters: BTreeMap<String, u64>,
+}
+
+/// Prepares, steps to the end and resolves. Where `visibility` is left open, the method gets
+/// [`Visibility::Traced`] if it does not decline it, else [`Visibility::Ignored`].
+///
+/// # Errors
+/// Those of the method.
+pub(crate) fn measure(
+    method: &dyn Method,
+    frame: &Frame<'_>,
+    visibility: Option<Visibility>,
+    parameters: &Parameters,
+    on_step: &mut dyn FnMut(Progress),
+) -> Result<Measured, Error> {
+    let mut clock = Instant::now();
+    let mut prepared = None;
+    for transport in candidates(frame.transport, visibility) {
+        clock = Instant::now();
+        let attempt = method.prepare(&Frame { transport, ..*frame }, parameters);
+        let declined = matches!(attempt, Err(Error::Declined(_)));
+        prepared = Some(attempt.map(|run| (run, transport)));
+        if !declined {
+            break;
+        }
+    }
+    let (mut run, transport) = prepared.expect("there is at least one candidate")?;
+    let prepare_seconds = clock.elapsed().as_secs_f64();
+    let step_seconds = step_to_the_end(run.as_mut(), on_step)?.as_secs_f64();
+    let image = run.resolve()?;
+    Ok(Measured {
+        image,
+        transport,
+        prepare_seconds,
+        step_seconds,
+        pass_seconds: run.pass_times().into_iter().map(|t| (t.pass.to_owned(), t.seconds)).collect(),
+        counters: run.counters().into_iter().map(|(name, n)| (name.to_owned(), n)).collect(),
+    })
+}
+
+fn step_to_the_end(run: &mut dyn Run, on_step: &mut dyn FnMut(Progress)) -> Result<Duration, Error> {
+    let mut elapsed = Duration::ZERO;
+    loop {
+        let clock = Instant::now();
+        let progress = run.step()?;
+        elapsed += clock.elapsed();
+        on_step(progress);
+        if progress.finished() {
+            return Ok(elapsed);
+        }
+    }
+}
+
+fn candidates(transport: Transport, visibility: Option<Visibility>) -> Vec<Transport> {
+    let Transport::Indirect { bounces: 1, .. } = transport else { return vec![transport] };
+    let choices = match visibility {
+        Some(visibility) => vec![visibility],
+        None => vec![Visibility::Traced, Visibility::Ignored],
+    };
+    choices.into_iter().map(|visibility| Transport::Indirect { bounces: 1, visibility }).collect()
+}
+
+/// The visibility in a transport, where it is a choice.
+pub(crate) fn visibility(transport: Transport) -> Option<Visibility> {
+    match transport {
+        Transport::Indirect { bounces: 1, visibility } => Some(visibility),
+        _ => None,
+    }
+}
+
+/// The same transport with another visibility of its last segment, where it has one.
+pub(crate) fn with_visibility(transport: Transport, visibility: Visibility) -> Transport {
+    match transport {
+        Transport::Indirect { bounces: bounces @ 1, .. } => {
+            Transport::Indirect { bounces, visibility }
+        }
+        other => other,
+    }
+}

@@ -1,0 +1,32 @@
+//! Numbers as tables show them.
+
+/// Three significant digits, without an exponent where that is short.
+pub(crate) fn short(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    if !(1e-4..1e6).contains(&magnitude) {
+        return format!("{value:.2e}");
+    }
+    let digits = 2 - magnitude.log10().floor() as i32;
+    format!("{value:.*}", digits.max(0) as usize)
+}
+
+/// Milliseconds of a time in seconds.
+pub(crate) fn milliseconds(seconds: f64) -> String {
+    short(1e3 * seconds)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_digits() {
+        let texts = [0.0, 0.012345, 1.0, 98.76, 1234.5, 1.5e7, 2e-6, -0.5].map(short);
+        assert_eq!(texts, ["0", "0.0123", "1.00", "98.8", "1234", "1.50e7", "2.00e-6", "-0.500"]);
+        assert_eq!(short(f64::INFINITY), "inf");
+        assert_eq!(milliseconds(0.0125), "12.5");
+    }
+}

@@ -1,0 +1,63 @@
+//! Where results go. What cannot be written is refused before anything is rendered.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::error::Failure;
+
+/// Creates `directory` where it is missing and makes sure that it can be written.
+///
+/// # Errors
+/// One line that names the option to change.
+pub(crate) fn check_directory(directory: &Path, option: &str) -> Result<(), Failure> {
+    std::fs::create_dir_all(directory)
+        .and_then(|()| NamedTempFile::new_in(directory).map(drop))
+        .map_err(|error| cannot_write(directory, option, error))
+}
+
+/// The EXR and the PNG beside it for `-o`.
+///
+/// # Errors
+/// One line where the name does not end in `.exr` or its folder cannot be written.
+pub(crate) fn check_image(path: &Path) -> Result<(PathBuf, PathBuf), Failure> {
+    if path.extension().is_none_or(|extension| extension != "exr") || path.is_dir() {
+        return Err(Failure::input(format!(
+            "{}: -o needs the name of an .exr file (the .png is written beside it)",
+            path.display()
+        )));
+    }
+    NamedTempFile::new_in(folder(path)).map_err(|error| cannot_write(path, "-o", error))?;
+    Ok((path.to_owned(), path.with_extension("png")))
+}
+
+/// Writes a whole file or nothing.
+///
+/// # Errors
+/// One line with the path.
+pub(crate) fn write(path: &Path, contents: &[u8]) -> Result<(), Failure> {
+    let write = || -> std::io::Result<()> {
+        let mut builder = tempfile::Builder::new();
+        // The default mode would keep everybody else from reading the results.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut file = builder.tempfile_in(folder(path))?;
+        file.write_all(contents)?;
+        file.as_file().sync_all()?;
+        file.persist(path)?;
+        Ok(())
+    };
+    write().map_err(|error| cannot_write(path, "the output", error))
+}
+
+fn cannot_write(path: &Path, option: &str, error: std::io::Error) -> Failure {
+    Failure::input(format!("cannot write {}: {error}: choose another {option}", path.display()))
+}
+
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}

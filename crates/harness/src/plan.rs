@@ -1,0 +1,83 @@
+//! What an experiment runs, and in which order.
+
+use manylights_method::{Method, Parameters};
+
+/// A method with all its parameters set.
+#[derive(Clone)]
+pub(crate) struct Variant {
+    /// From the registry.
+    pub(crate) method: &'static dyn Method,
+    /// All of its parameters.
+    pub(crate) parameters: Parameters,
+    /// The parameter along which a curve runs: the first one declared that the experiment sweeps.
+    pub(crate) swept: Option<&'static str>,
+}
+
+impl Variant {
+    /// Method and the parameters that differ from their defaults or are swept.
+    pub(crate) fn label(&self) -> String {
+        self.text(|_| true)
+    }
+
+    /// As the label, without the swept parameter: variants that share it form one curve.
+    pub(crate) fn series(&self) -> String {
+        self.text(|name| Some(name) != self.swept)
+    }
+
+    fn text(&self, wanted: impl Fn(&str) -> bool) -> String {
+        let default = Parameters::new(self.method.parameters(), []).expect("nothing to refuse");
+        let mut words = vec![self.method.id().to_owned()];
+        for ((name, value), (_, usual)) in self.parameters.iter().zip(default.iter()) {
+            if wanted(name) && (value != usual || Some(name) == self.swept) {
+                words.push(format!("{name}={value}"));
+            }
+        }
+        words.join(" ")
+    }
+}
+
+impl PartialEq for Variant {
+    fn eq(&self, other: &Self) -> bool {
+        self.method.id() == other.method.id() && self.parameters == other.parameters
+    }
+}
+
+impl std::fmt::Debug for Variant {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.label())
+    }
+}
+
+/// One timed run of a variant on a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Turn {
+    /// Index into the experiment's variants.
+    pub(crate) variant: usize,
+    /// Same seed, same picture.
+    pub(crate) seed: u64,
+    /// Which of the timed runs.
+    pub(crate) repetition: u32,
+}
+
+/// The runs of one scene. Variants take turns, so that a slow minute of the machine hits them all.
+pub(crate) fn interleaved(variants: usize, seeds: &[u64], repetitions: u32) -> Vec<Turn> {
+    let mut turns = Vec::new();
+    for repetition in 0..repetitions {
+        for &seed in seeds {
+            turns.extend((0..variants).map(|variant| Turn { variant, seed, repetition }));
+        }
+    }
+    turns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variants_take_turns() {
+        let turns = interleaved(2, &[7], 2);
+        let order: Vec<_> = turns.iter().map(|turn| (turn.repetition, turn.variant)).collect();
+        assert_eq!(order, [(0, 0), (0, 1), (1, 0), (1, 1)]);
+    }
+}

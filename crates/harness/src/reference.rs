@@ -1,0 +1,86 @@
+//! References of a scene, with the noise that is left in them.
+
+use std::path::Path;
+
+use manylights_method::Visibility;
+use manylights_metrics::{RadianceImage, compare_display, compare_linear};
+use manylights_path_tracer as path_tracer;
+use manylights_scene::{Camera, Scene};
+
+use crate::cell::Comparison;
+use crate::error::Failure;
+use crate::progress::Progress;
+
+/// A converged picture, as far as its samples go.
+pub(crate) struct SceneReference {
+    /// Of the last segment.
+    pub(crate) visibility: Visibility,
+    /// The mean of all samples.
+    pub(crate) image: RadianceImage,
+    /// Samples a pixel: at least what was asked for.
+    pub(crate) samples: u32,
+    /// RMSE of radiance that noise alone causes.
+    linear_floor: f64,
+    /// RMSE of sRGB values that noise alone causes.
+    display_floor: f64,
+    exposure: f32,
+}
+
+impl SceneReference {
+    /// Renders the reference or takes it, as far as it got, from `cache`.
+    ///
+    /// # Errors
+    /// One line where the scene cannot be rendered or the reference is black.
+    pub(crate) fn render(
+        scene: &Scene,
+        camera: &Camera,
+        settings: &path_tracer::Settings,
+        visibility: Visibility,
+        cache: &Path,
+    ) -> Result<Self, Failure> {
+        let label = format!("{} reference ({visibility}, {} spp)", scene.name, settings.samples);
+        let mut progress = Progress::new(&label);
+        let reference = path_tracer::render(scene, camera, settings, Some(cache), &mut |at| {
+            progress.set(at.done, at.total);
+        })
+        .map_err(|error| at_scene(scene, error))?;
+        drop(progress);
+        for note in &reference.notes {
+            eprintln!("{note}");
+        }
+        let [a, b] = &reference.halves;
+        // Halves of n/2 samples differ by √2 times their own noise, which is √2 times that of their
+        // mean: half the difference is the noise of the mean.
+        let display = compare_display(a, b, scene.exposure).map_err(|e| at_scene(scene, e))?;
+        // Nothing can be compared with a black reference: better said before the methods run.
+        compare_linear(&reference.image, &reference.image).map_err(|e| at_scene(scene, e))?;
+        Ok(Self {
+            visibility,
+            samples: reference.samples,
+            linear_floor: reference.noise_floor,
+            display_floor: display.rmse / 2.0,
+            exposure: scene.exposure,
+            image: reference.image,
+        })
+    }
+
+    /// Errors of a picture against this reference.
+    ///
+    /// # Errors
+    /// Where pixels of the picture are not finite.
+    pub(crate) fn compare(
+        &self,
+        image: &RadianceImage,
+    ) -> Result<Comparison, manylights_metrics::Error> {
+        Ok(Comparison {
+            linear: compare_linear(image, &self.image)?,
+            display: compare_display(image, &self.image, self.exposure)?,
+            linear_floor: self.linear_floor,
+            display_floor: self.display_floor,
+        })
+    }
+}
+
+fn at_scene(scene: &Scene, error: impl std::fmt::Display) -> Failure {
+    Failure::input(format!("reference of {}: {error}", scene.name))
+}

@@ -1,0 +1,64 @@
+//! The only list of methods in the workspace. Help, lists, sweeps and plot styles derive from it.
+
+use manylights_method::Method;
+use manylights_path_tracer::PathTracer;
+
+use crate::names;
+
+/// Every method, in the order of lists; its position fixes its colour and marker in plots.
+pub const METHODS: &[&dyn Method] = &[&PathTracer];
+
+/// The method of this name.
+///
+/// # Errors
+/// One line with the nearest name.
+pub fn method(id: &str) -> Result<&'static dyn Method, String> {
+    METHODS
+        .iter()
+        .copied()
+        .find(|method| method.id() == id)
+        .ok_or_else(|| names::unknown("method", id, METHODS.iter().map(|method| method.id())))
+}
+
+/// Where a method stands in [`METHODS`]; `METHODS.len()` for one that left the registry.
+pub(crate) fn position(id: &str) -> usize {
+    METHODS.iter().position(|method| method.id() == id).unwrap_or(METHODS.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    fn well_formed(name: &str) -> bool {
+        name.starts_with(|c: char| c.is_ascii_lowercase())
+            && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+    }
+
+    #[test]
+    fn ids_are_unique_and_well_formed() {
+        let ids: BTreeSet<_> = METHODS.iter().map(|method| method.id()).collect();
+        assert_eq!(ids.len(), METHODS.len());
+        assert!(ids.iter().all(|id| well_formed(id)), "{ids:?}");
+    }
+
+    #[test]
+    fn methods_and_parameters_are_documented() {
+        for method in METHODS {
+            assert!(!method.title().trim().is_empty(), "{}", method.id());
+            let mut seen = BTreeSet::new();
+            for info in method.parameters() {
+                assert!(seen.insert(info.name), "{} declares {} twice", method.id(), info.name);
+                assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
+                assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
+            }
+        }
+    }
+
+    #[test]
+    fn an_unknown_method_is_an_error() {
+        assert!(method("no-such-method").is_err());
+        assert_eq!(method("referense").err(), Some("unknown method `referense`: did you mean `reference`?".into()));
+    }
+}

@@ -1,0 +1,87 @@
+//! The path tracer as one of the methods under comparison.
+
+use std::time::Instant;
+
+use manylights_method::{
+    Error, Frame, Method, ParameterInfo, ParameterKind, Parameters, PassTime, Processor, Progress,
+    Run,
+};
+use manylights_metrics::RadianceImage;
+
+use crate::picture::Picture;
+use crate::sampler::SLICE;
+
+/// The path tracer, as a method: `reference`.
+#[derive(Clone, Copy, Debug)]
+pub struct PathTracer;
+
+struct PathTracerRun<'a> {
+    picture: Picture<'a>,
+    samples: u32,
+    primary_seconds: f64,
+    sample_seconds: f64,
+}
+
+impl Method for PathTracer {
+    fn id(&self) -> &'static str {
+        "reference"
+    }
+
+    fn title(&self) -> &'static str {
+        "Path tracing on the CPU, the reference (Kajiya 1986)"
+    }
+
+    fn processor(&self) -> Processor {
+        Processor::Cpu
+    }
+
+    fn parameters(&self) -> &'static [ParameterInfo] {
+        &[ParameterInfo {
+            name: "samples",
+            help: "paths a pixel, rounded up to whole slices of 16",
+            kind: ParameterKind::Count { default: 64, min: 1, max: 1 << 24 },
+        }]
+    }
+
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        let start = Instant::now();
+        let Frame { scene, camera, transport, resolution, seed, .. } = *frame;
+        let picture = Picture::new(scene, camera, transport, resolution, seed)?;
+        Ok(Box::new(PathTracerRun {
+            picture,
+            samples: parameters.count("samples") as u32,
+            primary_seconds: start.elapsed().as_secs_f64(),
+            sample_seconds: 0.0,
+        }))
+    }
+}
+
+impl Run for PathTracerRun<'_> {
+    fn step(&mut self) -> Result<Progress, Error> {
+        let start = Instant::now();
+        self.picture.slice()?;
+        self.sample_seconds += start.elapsed().as_secs_f64();
+        Ok(Progress {
+            done: u64::from(self.picture.slices() * SLICE),
+            total: u64::from(self.samples.next_multiple_of(SLICE)),
+        })
+    }
+
+    fn resolve(&mut self) -> Result<RadianceImage, Error> {
+        Ok(self.picture.image())
+    }
+
+    fn counters(&self) -> Vec<(&'static str, u64)> {
+        let samples = u64::from(self.picture.slices() * SLICE);
+        vec![("samples", samples), ("rays", self.picture.rays())]
+    }
+
+    fn pass_times(&self) -> Vec<PassTime> {
+        let pass = |pass, seconds| PassTime { pass, seconds };
+        vec![pass("primary", self.primary_seconds), pass("sample", self.sample_seconds)]
+    }
+}

@@ -1,0 +1,54 @@
+//! Scenes made by code: no downloads. Y is up, lengths are metres.
+
+mod atrium;
+mod cornell;
+pub mod integrating_sphere;
+mod trio;
+
+use crate::{Material, Scene};
+
+/// A scene made by code.
+#[derive(Clone, Copy, Debug)]
+pub struct Builtin {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// One line for `list scenes`.
+    pub about: &'static str,
+    /// Makes it; always the same scene.
+    pub make: fn() -> Scene,
+}
+
+/// All of them.
+pub const BUILTINS: &[Builtin] = &[
+    Builtin {
+        name: "integrating-sphere",
+        about: "closed Lambertian sphere around a point light; every bounce is known in closed form",
+        make: integrating_sphere::make,
+    },
+    Builtin {
+        name: "cornell",
+        about: "Lambertian Cornell box with two blocks under a spot light",
+        make: cornell::lambertian,
+    },
+    Builtin {
+        name: "cornell-glossy",
+        about: "the same box with a glossy back wall (Křivánek et al. 2004, figure 7)",
+        make: cornell::glossy,
+    },
+    Builtin {
+        name: "atrium",
+        about: "hall of columns and arches over a glossy floor, lit by one spot light",
+        make: atrium::make,
+    },
+    Builtin {
+        name: "trio",
+        about: "sphere, torus and rounded cube of different gloss before a wall, one spot light",
+        make: trio::make,
+    },
+];
+
+/// Appends a material and returns its index.
+fn add(scene: &mut Scene, material: Material) -> u32 {
+    scene.materials.push(material);
+    scene.materials.len() as u32 - 1
+}

@@ -1,0 +1,69 @@
+//! Renders a built-in scene on the adapter and with the oracle.
+
+use std::sync::LazyLock;
+
+use glam::DVec3;
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord, VirtualLight, distribute};
+use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_metrics::RadianceImage;
+use manylights_scene::Scene;
+use manylights_vpl::{Settings, Vpl, oracle};
+
+pub struct Picture {
+    pub image: RadianceImage,
+    pub oracle: Vec<DVec3>,
+    pub lights: Vec<VirtualLight>,
+}
+
+static GPU: LazyLock<Gpu> =
+    LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
+
+pub fn render(scene: &str, resolution: [u32; 2], settings: &Settings) -> Picture {
+    render_with_seed(scene, resolution, settings, 0)
+}
+
+pub fn render_with_seed(
+    scene: &str,
+    resolution: [u32; 2],
+    settings: &Settings,
+    seed: u64,
+) -> Picture {
+    let scene = manylights_scene::load(scene, None).expect("built in");
+    render_scene(&scene, resolution, settings, seed)
+}
+
+pub fn render_scene(
+    scene: &Scene,
+    resolution: [u32; 2],
+    settings: &Settings,
+    seed: u64,
+) -> Picture {
+    let camera = &scene.cameras[0];
+    let on_gpu = GpuFrame::new(&GPU, scene, camera, resolution).expect("the scene fits");
+    let frame = Frame {
+        scene,
+        camera,
+        resolution,
+        transport: Transport::Indirect { bounces: 1, visibility: Visibility::Ignored },
+        seed,
+        gpu: Some(&on_gpu),
+    };
+    let texts = [
+        ("lights", settings.lights.to_string()),
+        ("clamp", settings.clamp.unwrap_or(0.0).to_string()),
+        ("radius", settings.radius.unwrap_or(0.0).to_string()),
+    ];
+    let parameters =
+        Parameters::new(Vpl.parameters(), texts.iter().map(|(key, value)| (*key, &**value)))
+            .expect("in range");
+    let mut run = Vpl.prepare(&frame, &parameters).expect("vpl renders the scene");
+    while !run.step().expect("a step").finished() {}
+    let image = run.resolve().expect("a picture");
+
+    let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("read-back");
+    let (lights, _) = distribute(&on_gpu, scene, settings.lights, seed).expect("lights");
+    let eye = camera.position.as_dvec3();
+    let oracle =
+        surfaces.iter().map(|surface| oracle::radiance(surface, eye, &lights, settings)).collect();
+    Picture { image, oracle, lights }
+}
