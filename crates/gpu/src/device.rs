@@ -86,10 +86,7 @@ impl Gpu {
     }
 }
 
-fn choose(
-    adapters: Vec<wgpu::Adapter>,
-    wanted: Option<&str>,
-) -> Result<wgpu::Adapter, Error> {
+fn choose(adapters: Vec<wgpu::Adapter>, wanted: Option<&str>) -> Result<wgpu::Adapter, Error> {
     let names: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
     let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
         wgpu::DeviceType::DiscreteGpu => 0,

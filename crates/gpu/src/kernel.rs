@@ -116,10 +116,8 @@ impl Gpu {
             }
         })
         .map(|seconds| {
-            let pass_time = |(dispatch, seconds): (&Dispatch<'_>, _)| PassTime {
-                pass: dispatch.pass,
-                seconds,
-            };
+            let pass_time =
+                |(dispatch, seconds): (&Dispatch<'_>, _)| PassTime { pass: dispatch.pass, seconds };
             dispatches.iter().zip(seconds).map(pass_time).collect()
         })
     }

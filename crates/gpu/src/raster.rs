@@ -57,8 +57,7 @@ fn draw(
     let pipeline = gpu.visibility_pipeline()?;
     let depth = texture(gpu, projection, wgpu::TextureFormat::Depth32Float);
     let depth = depth.create_view(&Default::default());
-    let resources =
-        [uniform, &scene.vertices, &scene.triangles].map(Resource::Buffer);
+    let resources = [uniform, &scene.vertices, &scene.triangles].map(Resource::Buffer);
     let entries: Vec<_> = (0..)
         .zip(&resources)
         .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.binding() })
@@ -79,7 +78,10 @@ fn draw(
                 resolve_target: None,
                 ops: wgpu::Operations {
                     // NO_TRIANGLE: integer targets take the clear colour's integral value.
-                    load: wgpu::LoadOp::Clear(wgpu::Color { r: f64::from(u32::MAX), ..wgpu::Color::BLACK }),
+                    load: wgpu::LoadOp::Clear(wgpu::Color {
+                        r: f64::from(u32::MAX),
+                        ..wgpu::Color::BLACK
+                    }),
                     store: wgpu::StoreOp::Store,
                 },
             })],

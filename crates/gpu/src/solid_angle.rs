@@ -8,8 +8,7 @@ use glam::DVec3;
 /// is twice the triangle's area, which is exact here, so no digit is lost for small cells. (The closed
 /// form in differences of four arc tangents loses all of them.)
 pub fn rectangle_solid_angle([x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) -> f64 {
-    let corners =
-        [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(|[x, y]| DVec3::new(x, y, 1.0));
+    let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(|[x, y]| DVec3::new(x, y, 1.0));
     let area = (x1 - x0) * (y1 - y0);
     let triangle = |[a, b, c]: [DVec3; 3]| {
         let [la, lb, lc] = [a, b, c].map(DVec3::length);

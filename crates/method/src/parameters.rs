@@ -98,9 +98,8 @@ impl fmt::Display for Parameters {
 
 impl ParameterInfo {
     fn parse(&self, text: &str) -> Result<f64, String> {
-        let refuse = |range: String| {
-            Err(format!("parameter `{}` = `{text}`: must be {range}", self.name))
-        };
+        let refuse =
+            |range: String| Err(format!("parameter `{}` = `{text}`: must be {range}", self.name));
         match self.kind {
             ParameterKind::Count { min, max, .. } => match text.parse::<u64>() {
                 Ok(value) if (min..=max).contains(&value) => Ok(value as f64),

@@ -33,9 +33,8 @@ impl FromStr for Transport {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let unknown = || {
-            format!("unknown transport `{text}`: use direct, indirect-1 (or another K), all")
-        };
+        let unknown =
+            || format!("unknown transport `{text}`: use direct, indirect-1 (or another K), all");
         match text {
             "direct" => Ok(Self::Direct),
             "all" => Ok(Self::All),

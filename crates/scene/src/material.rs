@@ -30,14 +30,6 @@ pub struct Material {
     pub emission: Vec3,
 }
 
-impl Default for Material {
-    /// glTF's default: a white metal of roughness 1 would be its letter; a material that is absent
-    /// altogether is better served by a grey Lambertian one.
-    fn default() -> Self {
-        Self::lambert("default", Vec3::splat(0.8))
-    }
-}
-
 impl Material {
     /// A Lambertian material of the given albedo.
     pub fn lambert(name: &str, base_color: Vec3) -> Self {

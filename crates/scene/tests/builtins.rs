@@ -71,8 +71,9 @@ fn integrating_sphere_facets_are_as_flat_as_documented() {
     for i in 0..scene.triangles.len() as u32 {
         let plane = scene.geometric_normal(i).dot(scene.corners(i)[0]).abs();
         largest = largest.max(1.0 - plane / RADIUS);
-        // Mean over the facet of 1/d², at its corners 1/R² and at its centre 1/plane².
-        excess += 0.5 * (RADIUS * RADIUS / (plane * plane) - 1.0);
+        // 1/d² is 1/R² at the corners and 1/plane² at the centre; over an equilateral triangle the
+        // mean of ρ² is a quarter of its value at the corners.
+        excess += 0.75 * (RADIUS * RADIUS / (plane * plane) - 1.0);
     }
     let mean = excess / scene.triangles.len() as f32;
     assert!(largest < 2.6e-4, "{largest}");
@@ -134,7 +135,7 @@ fn unknown_names_suggest_the_nearest() {
     let line = common::check_line(&load("atrum", None).expect_err("unknown"));
     assert!(line.contains("`atrum`") && line.contains("did you mean `atrium`?"), "{line}");
     let scene = make("cornell-glossy");
-    let line = common::check_line(scene.camera(Some("lefd")).expect_err("unknown"));
+    let line = common::check_line(&scene.camera(Some("lefd")).expect_err("unknown"));
     assert!(line.contains("did you mean `left`?"), "{line}");
     assert_eq!(scene.camera(Some("right")).expect("known").name, "right");
     assert_eq!(scene.camera(None).expect("default").name, "centre");

@@ -18,12 +18,18 @@ mod gather;
 mod light_record;
 pub mod oracle;
 mod params;
+mod run;
 
-use manylights_gpu::GpuFrame;
-use manylights_method::{Error, Frame, Method, ParameterInfo, Parameters, Processor, Run, Transport};
+use glam::Vec3;
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord, VirtualLight};
+use manylights_method::{
+    Error, Frame, Method, ParameterInfo, Parameters, Processor, Run, Transport,
+};
 
-use gather::{Gather, VplRun};
-pub use gather::linked_shaders;
+use gather::{Batches, Gather};
+use run::VplRun;
+
+pub use gather::linked_shader;
 pub use params::Settings;
 
 /// The method.
@@ -53,8 +59,19 @@ impl Method for Vpl {
     ) -> Result<Box<dyn Run + 'a>, Error> {
         let on_gpu = accepted(frame)?;
         let settings = Settings::new(parameters);
-        let gather = Gather::new(on_gpu, frame.camera, frame.scene.has_specular(), &settings)?;
-        Ok(Box::new(VplRun::new(frame.scene, on_gpu, settings, frame.seed, gather)))
+        let [width, height] = on_gpu.resolution();
+        let specular = frame.scene.has_specular();
+        let camera = frame.camera.position;
+        let gather = Gather::new(on_gpu.gpu(), width * height, camera, specular, &settings)?;
+        Ok(Box::new(VplRun {
+            scene: frame.scene,
+            frame: on_gpu,
+            settings,
+            seed: frame.seed,
+            gather,
+            placed: None,
+            times: Vec::new(),
+        }))
     }
 }
 
@@ -71,4 +88,24 @@ fn accepted<'a>(frame: &Frame<'a>) -> Result<&'a GpuFrame, Error> {
         return declined("needs a point, spot or directional light; this scene has none");
     }
     frame.gpu.ok_or_else(|| Error::Failed("vpl runs on the adapter and was given none".into()))
+}
+
+/// Radiance of given surfaces under given lights, by the adapter's kernels: what a picture does, for
+/// hard cases that no scene brings about.
+///
+/// # Errors
+/// Where the adapter refuses.
+pub fn gather(
+    gpu: &Gpu,
+    surfaces: &[SurfaceRecord],
+    camera: Vec3,
+    lights: &[VirtualLight],
+    settings: &Settings,
+) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
+    let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
+        || lights.iter().any(|light| light.brdf.has_specular());
+    let gather = Gather::new(gpu, surfaces.len() as u32, camera, specular, settings)?;
+    let batches = Batches::new(gpu, lights)?;
+    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.len())?;
+    gather.radiance()
 }

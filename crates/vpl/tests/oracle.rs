@@ -14,11 +14,10 @@ const PLAIN: Settings = Settings { lights: 256, clamp: None, radius: None };
 fn worst(scene: &str, settings: &Settings) -> f64 {
     let Picture { image, oracle, .. } = render(scene, [48, 36], settings);
     let peak = oracle.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
-    let difference = image
-        .pixels
-        .iter()
-        .zip(&oracle)
-        .map(|(pixel, truth)| (glam::Vec3::from(*pixel).as_dvec3() - truth).abs().max_element());
+    let difference =
+        image.pixels.iter().zip(&oracle).map(|(pixel, truth)| {
+            (glam::Vec3::from(*pixel).as_dvec3() - truth).abs().max_element()
+        });
     let worst = difference.fold(0.0, f64::max) / peak;
     println!("{scene} {settings:?}: {worst:.2e}");
     worst

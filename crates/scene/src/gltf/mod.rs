@@ -10,6 +10,7 @@ mod container;
 mod materials;
 mod nodes;
 mod notes;
+mod optics;
 mod primitives;
 mod ranges;
 mod textures;
@@ -76,7 +77,7 @@ fn import(path: &Path) -> Result<Scene, LoadError> {
     };
     nodes::add_all(&mut import, roots)?;
     let Import { mut scene, mut notes, .. } = import;
-    nodes::frame(&mut scene, &mut notes);
+    optics::frame(&mut scene, &mut notes);
     scene.notes = notes.into_lines();
     Ok(scene)
 }

@@ -1,19 +1,17 @@
-//! The node hierarchy: its check, its walk, and the lights and cameras that hang in it.
-
-use std::f32::consts::{FRAC_PI_2, PI};
+//! The node hierarchy: its check and its walk.
 
 use ::gltf as gltf_crate;
-use gltf_crate::camera::Projection;
-use gltf_crate::json::{Root, scene};
-use gltf_crate::khr_lights_punctual::Kind;
-use glam::{Mat4, Vec3};
+use glam::Mat4;
+use gltf_crate::json::mesh::{Primitive, Semantic};
+use gltf_crate::json::validation::Checked;
+use gltf_crate::json::{Accessor, Index, Root, scene};
 
 use super::notes::Notes;
-use super::{Import, broken, primitives};
-use crate::{Camera, Light, LoadError, Scene};
+use super::{Import, broken, optics, primitives};
+use crate::LoadError;
 
-/// Widest half-angle of a spot light: at a right angle its map of texels would be infinite.
-const MAX_CONE: f32 = FRAC_PI_2 - 0.02;
+/// Most vertices and indices that are drawn: some 4 GiB of them.
+const MAX_ELEMENTS: u128 = 1 << 27;
 
 /// The root nodes of the default scene, or of the first, or of the whole file.
 ///
@@ -67,15 +65,40 @@ fn forest(nodes: &[scene::Node]) -> Result<Vec<usize>, LoadError> {
 /// Adds what hangs below `roots` to the scene. The stack is on the heap: depth is no danger.
 pub(super) fn add_all(import: &mut Import, roots: Vec<usize>) -> Result<(), LoadError> {
     let nodes: Vec<_> = import.source.document.nodes().collect();
+    let mut placed = Vec::new();
     let mut stack: Vec<_> = roots.into_iter().rev().map(|node| (node, Mat4::IDENTITY)).collect();
     while let Some((index, parent)) = stack.pop() {
         let node = &nodes[index];
         let to_world = parent * Mat4::from_cols_array_2d(&node.transform().matrix());
-        add(import, node, to_world).map_err(|error| error.within(format!("nodes[{index}]")))?;
+        placed.push((index, to_world));
         let children: Vec<_> = node.children().map(|child| (child.index(), to_world)).collect();
         stack.extend(children.into_iter().rev());
     }
+    check_size(import.source.document.as_json(), placed.iter().map(|&(index, _)| index))?;
+    for (index, to_world) in placed {
+        add(import, &nodes[index], to_world)
+            .map_err(|error| error.within(format!("nodes[{index}]")))?;
+    }
     Ok(())
+}
+
+/// Refuses scenes that would not fit into memory: many nodes of a small file can show one mesh.
+fn check_size(root: &Root, nodes: impl Iterator<Item = usize>) -> Result<(), LoadError> {
+    let count = |index: Index<Accessor>| u128::from(root.accessors[index.value()].count.0);
+    let size = |primitive: &Primitive| {
+        let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
+        let vertices = positions.map_or(0, |&index| count(index));
+        vertices + primitive.indices.map_or(vertices, count)
+    };
+    let meshes: Vec<u128> =
+        root.meshes.iter().map(|mesh| mesh.primitives.iter().map(size).sum()).collect();
+    let total: u128 =
+        nodes.filter_map(|node| root.nodes[node].mesh).map(|mesh| meshes[mesh.value()]).sum();
+    if total <= MAX_ELEMENTS {
+        return Ok(());
+    }
+    let problem = format!("{total} vertices and indices in all instances, more than {MAX_ELEMENTS}");
+    Err(LoadError::new("nodes", problem, "reduce the meshes or their instances"))
 }
 
 fn add(import: &mut Import, node: &gltf_crate::Node, to_world: Mat4) -> Result<(), LoadError> {
@@ -87,94 +110,10 @@ fn add(import: &mut Import, node: &gltf_crate::Node, to_world: Mat4) -> Result<(
         }
     }
     if let Some(light) = node.light() {
-        let light = new_light(&light, to_world, &mut import.notes)?;
-        import.scene.lights.push(light);
+        optics::add_light(import, &light, to_world)?;
     }
     if let Some(camera) = node.camera() {
-        let fallback = format!("camera-{}", import.scene.cameras.len());
-        let name = node.name().or(camera.name()).map_or(fallback, str::to_owned);
-        match camera.projection() {
-            Projection::Perspective(lens) => {
-                let camera = new_camera(&import.scene, name, lens.yfov(), to_world)?;
-                import.scene.cameras.push(camera);
-            }
-            Projection::Orthographic(_) => {
-                import.notes.count("orthographic cameras left out", 1);
-            }
-        }
+        optics::add_camera(import, &camera, node.name(), to_world)?;
     }
     Ok(())
-}
-
-/// A unit direction of a node's frame in world space.
-fn axis(to_world: Mat4, local: Vec3) -> Result<Vec3, LoadError> {
-    let axis = to_world.transform_vector3(local).try_normalize();
-    axis.ok_or_else(|| broken("transform", "has no finite, non-zero scale"))
-}
-
-fn origin(to_world: Mat4) -> Result<Vec3, LoadError> {
-    let origin = to_world.w_axis.truncate();
-    if origin.is_finite() { Ok(origin) } else { Err(broken("transform", "is not finite")) }
-}
-
-fn new_camera(
-    scene: &Scene,
-    mut name: String,
-    fov: f32,
-    to_world: Mat4,
-) -> Result<Camera, LoadError> {
-    if !(fov > 0.0 && fov < PI) {
-        return Err(broken("camera.perspective.yfov", format!("{fov} is not between 0 and π")));
-    }
-    while scene.cameras.iter().any(|camera| camera.name == name) {
-        name.push('+');
-    }
-    let position = origin(to_world)?;
-    let forward = axis(to_world, Vec3::NEG_Z)?;
-    let up = axis(to_world, Vec3::Y)?;
-    Ok(Camera::look_at(&name, position, position + forward, up, fov))
-}
-
-fn new_light(
-    light: &gltf_crate::khr_lights_punctual::Light,
-    to_world: Mat4,
-    notes: &mut Notes,
-) -> Result<Light, LoadError> {
-    let intensity = Vec3::from(light.color()) * light.intensity();
-    if !intensity.is_finite() || intensity.min_element() < 0.0 {
-        return Err(broken("light", "its colour times its intensity is negative or infinite"));
-    }
-    notes.count("lights whose range is ignored", u64::from(light.range().is_some()));
-    Ok(match light.kind() {
-        Kind::Point => Light::Point { position: origin(to_world)?, intensity },
-        Kind::Directional => {
-            Light::Directional { direction: axis(to_world, Vec3::NEG_Z)?, irradiance: intensity }
-        }
-        Kind::Spot { inner_cone_angle: inner, outer_cone_angle: outer } => {
-            if !(0.0 <= inner && inner < outer && outer <= FRAC_PI_2 + 1e-4) {
-                let problem = format!("the angles {inner}, {outer} are not 0 ≤ inner < outer ≤ π/2");
-                return Err(broken("light.spot", problem));
-            }
-            notes.count("spot lights narrowed to 89°", u64::from(outer > MAX_CONE));
-            let outer = outer.min(MAX_CONE);
-            let direction = axis(to_world, Vec3::NEG_Z)?;
-            Light::Spot { position: origin(to_world)?, direction, intensity, inner: inner.min(outer), outer }
-        }
-    })
-}
-
-/// Gives a scene without cameras one that sees it whole, from the front and a little above.
-pub(super) fn frame(scene: &mut Scene, notes: &mut Notes) {
-    notes.count("no light in the file", u64::from(scene.lights.is_empty() && scene.emissive_triangles().next().is_none()));
-    if !scene.cameras.is_empty() {
-        return;
-    }
-    const FOV: f32 = 0.7;
-    notes.count("no camera in the file, framed from outside", 1);
-    let (low, high) = scene.bounds();
-    let centre = low.midpoint(high);
-    let radius = 0.5 * low.distance(high);
-    let distance = if radius > 0.0 { radius / (0.5 * FOV).sin() } else { 1.0 };
-    let position = centre + distance * Vec3::new(0.4, 0.35, 1.0).normalize();
-    scene.cameras.push(Camera::look_at("framed", position, centre, Vec3::Y, FOV));
 }

@@ -8,15 +8,10 @@ use gltf_crate::{Primitive, Semantic};
 use super::{Import, broken};
 use crate::{LoadError, Scene, Triangle, Vertex};
 
-/// Most triangles and vertices in a scene. A small file can ask for any number through many nodes
-/// that show one mesh.
-const MAX_TRIANGLES: usize = 1 << 25;
-const MAX_VERTICES: usize = 1 << 26;
-
 /// Appends a primitive to the scene.
 ///
 /// # Errors
-/// Indices out of range, a scene that becomes too large, materials that cannot be had.
+/// Indices out of range, materials that cannot be had.
 pub(super) fn add(
     import: &mut Import,
     primitive: &Primitive,
@@ -46,10 +41,6 @@ pub(super) fn add(
         if let Some(flaw) = builder.add(&mut import.scene, corners) {
             import.notes.count(flaw, 1);
         }
-    }
-    if import.scene.triangles.len() > MAX_TRIANGLES || import.scene.vertices.len() > MAX_VERTICES {
-        let problem = format!("takes the scene beyond {MAX_TRIANGLES} triangles");
-        return Err(LoadError::new("mesh", problem, "reduce the meshes or their instances"));
     }
     Ok(())
 }

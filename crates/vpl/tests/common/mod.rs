@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use glam::DVec3;
-use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord, VirtualLight, distribute};
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord, distribute};
 use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
 use manylights_metrics::RadianceImage;
 use manylights_scene::Scene;
@@ -12,7 +12,6 @@ use manylights_vpl::{Settings, Vpl, oracle};
 pub struct Picture {
     pub image: RadianceImage,
     pub oracle: Vec<DVec3>,
-    pub lights: Vec<VirtualLight>,
 }
 
 static GPU: LazyLock<Gpu> =
@@ -65,5 +64,5 @@ pub fn render_scene(
     let eye = camera.position.as_dvec3();
     let oracle =
         surfaces.iter().map(|surface| oracle::radiance(surface, eye, &lights, settings)).collect();
-    Picture { image, oracle, lights }
+    Picture { image, oracle }
 }

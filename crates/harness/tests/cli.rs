@@ -1,0 +1,217 @@
+//! The command line as a user meets it: bad input ends in exit status 2 and one line, never in a
+//! panic; good input gives the promised files.
+
+mod common;
+
+use std::path::Path;
+
+use common::{json, manylights, refused, succeeded, write_image};
+use manylights_metrics::RadianceImage;
+
+#[test]
+fn lists_are_json_where_asked() {
+    let methods = json(&["list", "methods", "--json"]);
+    let ids: Vec<_> = methods.as_array().expect("a list").iter().map(|m| &m["id"]).collect();
+    assert!(ids.contains(&&"reference".into()), "{ids:?}");
+    let parameters = methods[0]["parameters"].as_array().expect("a list");
+    assert!(parameters.iter().all(|p| p["help"].is_string() && p["default"].is_number()));
+    let scenes = json(&["list", "scenes", "--json"]);
+    for scene in ["integrating-sphere", "cornell", "cornell-glossy", "atrium", "trio"] {
+        assert!(scenes.as_array().expect("a list").iter().any(|s| s["name"] == scene), "{scene}");
+    }
+    let experiments = json(&["list", "experiments", "--json"]);
+    let files: Vec<_> = experiments.as_array().expect("a list").iter().map(|e| &e["file"]).collect();
+    assert!(files.contains(&&"results/first-light/experiment.toml".into()), "{files:?}");
+}
+
+#[test]
+fn lists_for_people_leave_standard_output_to_json() {
+    let output = manylights(&["list", "methods"]);
+    succeeded(&output);
+    assert!(output.stdout.is_empty());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("--set samples=N"));
+}
+
+#[test]
+fn help_and_version_succeed() {
+    for argument in ["--help", "--version"] {
+        let output = manylights(&[argument]);
+        succeeded(&output);
+        assert!(String::from_utf8_lossy(&output.stdout).contains("manylights"));
+    }
+}
+
+#[test]
+fn a_malformed_command_line_is_refused_in_one_line() {
+    for (arguments, said) in [
+        (&[][..], "a command is missing"),
+        (&["rendr"], "'render'"),
+        (&["render"], "--scene"),
+        (&["list", "methds"], "'methods'"),
+        (&["list", "methods", "--jsn"], "'--json'"),
+        (&["metrics", "one.exr"], "<REFERENCE>"),
+        (&["run", "e.toml", "--profile", "quik"], "'quick'"),
+    ] {
+        refused(arguments, said);
+    }
+}
+
+/// A `render` that succeeds, with `change` put in place of the option of that name or added.
+fn render_with(change: &[&str], said: &str) {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let out = folder.path().join("out.exr");
+    let out = out.to_str().expect("UTF-8");
+    let mut arguments = vec!["render"];
+    let defaults = [
+        ("--scene", "cornell"),
+        ("--method", "reference"),
+        ("--resolution", "16x16"),
+        ("--set", "samples=16"),
+        ("-o", out),
+    ];
+    for (option, value) in defaults {
+        if option != change[0] {
+            arguments.extend([option, value]);
+        }
+    }
+    arguments.extend(change);
+    refused(&arguments, said);
+    assert!(!Path::new(out).exists(), "{change:?} rendered all the same");
+}
+
+#[test]
+fn bad_settings_are_refused_before_rendering() {
+    for (change, said) in [
+        (&["--method", "referense"], "did you mean `reference`?"),
+        (&["--scene", "cornel"], "cornell"),
+        (&["--scene", "missing.glb"], "missing.glb"),
+        (&["--scene", "missing.toml"], "missing.toml"),
+        (&["--set", "sample=4"], "did you mean `samples`?"),
+        (&["--set", "samples"], "KEY=VALUE"),
+        (&["--set", "samples=0"], "from 1"),
+        (&["--set", "samples=-1"], "from 1"),
+        (&["--set", "samples=many"], "a whole number"),
+        (&["--set", "samples=99999999999999999999"], "a whole number"),
+        (&["--resolution", "0x16"], "sides must be 1"),
+        (&["--resolution", "16x0"], "sides must be 1"),
+        (&["--resolution", "16385x1"], "sides must be 1"),
+        (&["--resolution", "16384x16384"], "pixels"),
+        (&["--resolution", "99999999999x1"], "WIDTHxHEIGHT"),
+        (&["--resolution", "16"], "WIDTHxHEIGHT"),
+        (&["--transport", "everything"], "use direct, indirect-1"),
+        (&["--transport", "indirect-0"], "from 1 to 64"),
+        (&["--visibility", "guessed"], "use traced or ignored"),
+        (&["--camera", "nobody"], "nobody"),
+        (&["--seed", "-1"], "--seed"),
+    ] {
+        render_with(change, said);
+    }
+    render_with(&["--visibility", "ignored", "--transport", "all"], "needs --transport indirect-1");
+    render_with(&["--visibility", "ignored", "--transport", "indirect-2"], "indirect-1");
+}
+
+#[test]
+fn an_unwritable_output_is_refused_before_rendering() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let file = folder.path().join("file");
+    std::fs::write(&file, "in the way").expect("writable");
+    let taken = folder.path().join("taken.exr");
+    std::fs::create_dir(&taken).expect("writable");
+    for (path, said) in [
+        (folder.path().join("missing").join("out.exr"), "choose another -o"),
+        (file.join("out.exr"), "choose another -o"),
+        (taken, ".exr file"),
+        (folder.path().join("out.png"), ".exr file"),
+        (folder.path().join("out"), ".exr file"),
+    ] {
+        render_with(&["-o", path.to_str().expect("UTF-8")], said);
+    }
+}
+
+#[test]
+fn a_malformed_scene_file_is_refused() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    for (name, contents) in [
+        ("empty.glb", &b""[..]),
+        ("short.glb", b"glTF\x02\0\0\0\xff\xff\xff\x7f"),
+        ("broken.gltf", b"{"),
+        ("key.toml", b"sourse = \"cornell\"\n"),
+        ("syntax.toml", b"source = \n"),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, contents).expect("writable");
+        render_with(&["--scene", path.to_str().expect("UTF-8")], name);
+    }
+}
+
+#[test]
+fn render_writes_an_exr_and_a_png_of_the_size_asked_for() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let render = |name: &str, seed: &str| {
+        let path = folder.path().join(name);
+        let arguments = ["render", "--scene", "cornell", "--method", "reference", "--seed", seed];
+        let more = ["--set", "samples=16", "--resolution", "24x16", "-o"];
+        let output = manylights(
+            &[&arguments[..], &more, &[path.to_str().expect("UTF-8")]].concat(),
+        );
+        succeeded(&output);
+        assert!(output.stdout.is_empty(), "JSON only");
+        let png = image::open(path.with_extension("png")).expect("a PNG");
+        assert_eq!((png.width(), png.height()), (24, 16));
+        RadianceImage::read_exr(&path).expect("an EXR")
+    };
+    let [first, again, other] = [("a.exr", "1"), ("b.exr", "1"), ("c.exr", "2")].map(|(n, s)| render(n, s));
+    assert_eq!((first.width, first.height, first.non_finite()), (24, 16, 0));
+    assert!(first.pixels.iter().flatten().any(|&c| c > 0.0), "black");
+    assert_eq!(first, again, "same seed, same bits");
+    assert_ne!(first, other, "another seed, another picture");
+}
+
+#[test]
+fn the_adapter_is_opened_only_where_a_method_needs_it() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let out = folder.path().join("out.exr");
+    let arguments = ["render", "--scene", "cornell", "--method", "reference", "--set", "samples=16"];
+    let more = ["--resolution", "16x16", "--adapter", "no such adapter", "-o"];
+    succeeded(&manylights(&[&arguments[..], &more, &[out.to_str().expect("UTF-8")]].concat()));
+}
+
+#[test]
+fn metrics_of_two_pictures() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let dark = write_image(folder.path(), "dark.exr", [16, 12], 0.25);
+    let bright = write_image(folder.path(), "bright.exr", [16, 12], 0.5);
+    let report = json(&["metrics", &dark, &bright, "--json"]);
+    let near = |value: &serde_json::Value, expected: f64| {
+        let value = value.as_f64().expect("a number");
+        assert!((value - expected).abs() < 1e-12, "{value} is not {expected}");
+    };
+    // Both are exact in binary.
+    near(&report["linear"]["rmse"], 0.25);
+    near(&report["linear"]["mse"], 0.0625);
+    near(&report["exposure"], 1.0);
+    let same = json(&["metrics", &dark, &dark, "--json"]);
+    near(&same["display"]["rmse"], 0.0);
+    assert!(same["display"]["psnr"].is_null(), "infinite");
+    let output = manylights(&["metrics", &dark, &bright]);
+    succeeded(&output);
+    assert!(output.stdout.is_empty() && String::from_utf8_lossy(&output.stderr).contains("ssim"));
+}
+
+#[test]
+fn metrics_refuse_what_cannot_be_compared() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let good = write_image(folder.path(), "good.exr", [16, 12], 0.25);
+    let larger = write_image(folder.path(), "larger.exr", [12, 16], 0.25);
+    let broken = write_image(folder.path(), "broken.exr", [16, 12], f32::NAN);
+    let tiny = write_image(folder.path(), "tiny.exr", [4, 4], 0.25);
+    let text = folder.path().join("text.exr");
+    std::fs::write(&text, "not a picture").expect("writable");
+    let text = text.to_str().expect("UTF-8");
+    refused(&["metrics", &good, "missing.exr"], "missing.exr");
+    refused(&["metrics", text, &good], "text.exr");
+    refused(&["metrics", &good, &larger], "16×12");
+    refused(&["metrics", &broken, &good], "not finite");
+    refused(&["metrics", &tiny, &tiny], "11×11");
+    refused(&["metrics", &good, &good, "--exposure", "0"], "exposure");
+}

@@ -1,0 +1,170 @@
+//! The reflectance in WGSL against the one in f64, through the gather itself.
+
+use std::sync::LazyLock;
+
+use glam::{DVec3, Vec3};
+use manylights_gpu::{Gpu, SurfaceRecord, VirtualLight};
+use manylights_scene::Brdf;
+use manylights_vpl::{Settings, gather, oracle};
+use proptest::prelude::*;
+
+static GPU: LazyLock<Gpu> =
+    LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
+
+const SETTINGS: Settings = Settings { lights: 1, clamp: None, radius: None };
+
+fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
+    SurfaceRecord {
+        position,
+        alpha: brdf.alpha,
+        normal,
+        f90: brdf.f90,
+        diffuse: brdf.diffuse,
+        triangle: 0,
+        f0: brdf.f0,
+        material: 0,
+    }
+}
+
+fn light(position: Vec3, normal: Vec3, incoming: Vec3, brdf: Brdf) -> VirtualLight {
+    let flux = Vec3::ONE;
+    VirtualLight { position, geometric_normal: normal, normal, incoming, flux, brdf }
+}
+
+fn direction() -> impl Strategy<Value = Vec3> {
+    (-1.0_f32..1.0, 0.0_f32..std::f32::consts::TAU).prop_map(|(z, phi)| {
+        let r = (1.0 - z * z).sqrt();
+        Vec3::new(r * phi.cos(), r * phi.sin(), z)
+    })
+}
+
+fn material() -> impl Strategy<Value = Brdf> {
+    let albedo = || (0.0_f32..1.0).prop_map(Vec3::splat);
+    (albedo(), albedo(), 0.1_f32..1.0, 0.1_f32..1.0).prop_map(|(diffuse, f0, f90, roughness)| {
+        Brdf { diffuse, f0, f90: f90.max(f0.x), alpha: roughness * roughness }
+    })
+}
+
+/// Relative to the oracle, for each pair of one light and one of many surfaces.
+///
+/// The bound is 1e-5 for lobes that do not amplify rounding: a direction's error of 1e-7 rad changes
+/// D(h) by 4e-7/α, so narrower lobes are allowed 1e-6/α.
+fn check(surfaces: &[SurfaceRecord], camera: Vec3, light: &VirtualLight, narrowest: f32) {
+    let lights = [*light];
+    let pixels = gather(&GPU, surfaces, camera, &lights, &SETTINGS).expect("a gather");
+    for (surface, pixel) in surfaces.iter().zip(pixels) {
+        let truth = oracle::radiance(surface, camera.as_dvec3(), &lights, &SETTINGS);
+        let error = (Vec3::from(pixel).as_dvec3() - truth).abs().max_element();
+        let bound = f64::from((1e-6 / narrowest).max(1e-5));
+        assert!(error <= bound * truth.max_element(), "{pixel:?} is {truth} off by {error:e}");
+    }
+}
+
+/// Cosines of which f32 keeps five digits: below, rounding of the directions alone moves them by more.
+fn well_above(cosine: f32) -> bool {
+    cosine > 0.02
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn receivers_agree_with_the_oracle(
+        brdf in material(),
+        frames in prop::collection::vec((direction(), direction()), 512),
+    ) {
+        // The light shines up from the origin; receivers stand around it.
+        let camera = Vec3::new(0.3, 4.0, 0.2);
+        let surfaces: Vec<_> = frames
+            .into_iter()
+            .filter(|(place, normal)| {
+                let to_camera = (camera - *place).normalize();
+                well_above(place.y) && well_above(normal.dot(-*place))
+                    && well_above(normal.dot(to_camera))
+            })
+            .map(|(place, normal)| surface(place, normal, brdf))
+            .collect();
+        let light = light(Vec3::ZERO, Vec3::Y, Vec3::Y, Brdf::lambert(Vec3::ONE));
+        check(&surfaces, camera, &light, brdf.alpha);
+    }
+
+    #[test]
+    fn lights_agree_with_the_oracle(
+        brdf in material(),
+        incoming in direction(),
+        places in prop::collection::vec(direction(), 512),
+    ) {
+        prop_assume!(well_above(incoming.y));
+        let camera = Vec3::new(0.3, 4.0, 0.2);
+        let surfaces: Vec<_> = places
+            .into_iter()
+            .filter(|place| well_above(place.y))
+            .map(|place| surface(place, -place, Brdf::lambert(Vec3::ONE)))
+            .collect();
+        let light = light(Vec3::ZERO, Vec3::Y, incoming, brdf);
+        check(&surfaces, camera, &light, brdf.alpha);
+    }
+}
+
+/// Albedo of a perfectly reflecting GGX surface seen at `view`, by midpoint quadrature in f64.
+fn albedo(brdf: &Brdf, view: DVec3) -> f64 {
+    let (rings, sectors) = (2000, 1000);
+    let truth = manylights_scene::DBrdf::from(*brdf);
+    let mut sum = 0.0;
+    for ring in 0..rings {
+        for sector in 0..sectors {
+            // Uniform in cos²: the weight is the cosine itself.
+            let cos2 = (f64::from(ring) + 0.5) / f64::from(rings);
+            let phi = (f64::from(sector) + 0.5) / f64::from(sectors) * std::f64::consts::TAU;
+            let sin = (1.0 - cos2).sqrt();
+            let l = DVec3::new(sin * phi.cos(), cos2.sqrt(), sin * phi.sin());
+            sum += truth.eval(DVec3::Y, view, l).x;
+        }
+    }
+    sum * std::f64::consts::PI / f64::from(rings * sectors)
+}
+
+/// A closed sphere of unit radiance around one surface, made of 65 536 lights of equal solid angle.
+fn furnace(brdf: &Brdf, view: Vec3) -> f32 {
+    let count = 65_536;
+    let golden = std::f32::consts::TAU * 0.618_034;
+    let radiance_to_flux = 2.0 * std::f32::consts::PI / count as f32 * std::f32::consts::PI;
+    let lights: Vec<_> = (0..count)
+        .map(|index| {
+            let y = (index as f32 + 0.5) / count as f32;
+            let r = (1.0 - y * y).sqrt();
+            let phi = index as f32 * golden % std::f32::consts::TAU;
+            let place = Vec3::new(r * phi.cos(), y, r * phi.sin());
+            let flux = Vec3::splat(radiance_to_flux);
+            VirtualLight { flux, ..light(place, -place, -place, Brdf::lambert(Vec3::ONE)) }
+        })
+        .collect();
+    let surfaces = [surface(Vec3::ZERO, Vec3::Y, *brdf)];
+    gather(&GPU, &surfaces, view, &lights, &SETTINGS).expect("a gather")[0][0]
+}
+
+#[test]
+fn white_furnace_in_wgsl_loses_what_single_scattering_loses() {
+    for roughness in [0.5_f32, 0.8, 1.0] {
+        for cosine in [0.3_f32, 0.7, 1.0] {
+            let brdf =
+                Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, f90: 1.0, alpha: roughness * roughness };
+            let view = Vec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
+            let truth = albedo(&brdf, view.as_dvec3());
+            let measured = f64::from(furnace(&brdf, view));
+            println!("roughness {roughness} cosine {cosine}: {measured:.4}, known {truth:.4}");
+            assert!(truth < 1.0);
+            // 65 536 directions resolve these lobes to 0.2 %.
+            assert!((measured / truth - 1.0).abs() < 2e-3);
+        }
+    }
+}
+
+#[test]
+fn the_quadrature_knows_the_closed_form() {
+    // α = 1, f0 = 1, normal incidence: D = 1/π, V = 1/(2(1 + μ)), so the albedo is
+    // ∫ μ/(1 + μ) dμ over [0, 1] = 1 − ln 2.
+    let brdf = Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, f90: 1.0, alpha: 1.0 };
+    let closed = 1.0 - std::f64::consts::LN_2;
+    assert!((albedo(&brdf, DVec3::Y) - closed).abs() < 1e-6);
+}
