@@ -14,8 +14,8 @@ pub(crate) struct Shared {
     pub(crate) queue: wgpu::Queue,
     pub(crate) report: AdapterReport,
     pub(crate) limits: wgpu::Limits,
-    /// Timestamps exist on every Vulkan, Metal and DX12 adapter of note; without them only wall
-    /// clock is reported.
+    /// Whether timestamps tell the time of a pass. Those of llvmpipe do not: it runs a dispatch at
+    /// once and both timestamps later, when its rasteriser is flushed.
     pub(crate) timestamps: bool,
     /// Kernels by their WGSL. llvmpipe compiles at the first dispatch of a pipeline, so a pipeline
     /// that was warmed up must be the one that is timed.
@@ -35,7 +35,9 @@ impl Gpu {
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
         let wanted = adapter.map(str::to_owned).or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok());
         let adapter = choose(adapters, wanted.as_deref())?;
-        let timestamps = adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+        let info = adapter.get_info();
+        let timestamps = info.device_type != wgpu::DeviceType::Cpu
+            && adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         let limits = adapter.limits();
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("manylights"),
@@ -47,7 +49,6 @@ impl Gpu {
             required_limits: limits.clone(),
             ..Default::default()
         });
-        let info = adapter.get_info();
         let (device, queue) = pollster::block_on(request)
             .map_err(|e| Error::new(format!("adapter `{}` gave no device: {e}", info.name)))?;
         let report = AdapterReport::new(&info, &limits);

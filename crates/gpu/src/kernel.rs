@@ -1,4 +1,5 @@
 use std::sync::Arc;
+use std::time::Instant;
 
 use crate::{Buffer, Error, Gpu, UniformBatches};
 
@@ -51,8 +52,9 @@ pub struct Dispatch<'a> {
 pub struct PassTime {
     /// [`Dispatch::pass`].
     pub pass: &'static str,
-    /// Seconds between the timestamps around it; `None` on an adapter without timestamps.
-    pub seconds: Option<f64>,
+    /// Seconds between the adapter's timestamps around it. On a software adapter, and where there are
+    /// no timestamps: wall clock around its submission.
+    pub seconds: f64,
 }
 
 impl Gpu {
@@ -110,16 +112,11 @@ impl Gpu {
     /// # Errors
     /// Where a binding does not fit or the device was lost.
     pub fn run(&self, dispatches: &[Dispatch<'_>]) -> Result<Vec<PassTime>, Error> {
-        self.timed(dispatches.len() as u32, |encoder, queries| {
-            for (index, dispatch) in dispatches.iter().enumerate() {
-                self.encode(encoder, dispatch, queries, index as u32);
-            }
-        })
-        .map(|seconds| {
-            let pass_time =
-                |(dispatch, seconds): (&Dispatch<'_>, _)| PassTime { pass: dispatch.pass, seconds };
-            dispatches.iter().zip(seconds).map(pass_time).collect()
-        })
+        let seconds = self.timed(dispatches.len(), |encoder, index, queries| {
+            self.encode(encoder, &dispatches[index], queries, index as u32);
+        })?;
+        let times = dispatches.iter().zip(seconds);
+        Ok(times.map(|(dispatch, seconds)| PassTime { pass: dispatch.pass, seconds }).collect())
     }
 
     fn encode(
@@ -159,43 +156,57 @@ impl Gpu {
         pass.dispatch_workgroups(x, y, z);
     }
 
-    /// Encodes, submits and waits; `passes` pairs of timestamps come back in seconds.
+    /// Encodes `passes` passes, submits them, waits, and returns the seconds of each.
     pub(crate) fn timed(
         &self,
-        passes: u32,
-        encode: impl FnOnce(&mut wgpu::CommandEncoder, Option<&wgpu::QuerySet>),
-    ) -> Result<Vec<Option<f64>>, Error> {
+        passes: usize,
+        encode: impl Fn(&mut wgpu::CommandEncoder, usize, Option<&wgpu::QuerySet>),
+    ) -> Result<Vec<f64>, Error> {
+        if self.shared.timestamps {
+            return self.timed_by_adapter(passes, encode);
+        }
+        (0..passes)
+            .map(|index| {
+                let mut encoder = self.device().create_command_encoder(&Default::default());
+                self.checked("pass", || encode(&mut encoder, index, None))?;
+                let start = Instant::now();
+                self.checked("pass", || self.shared.queue.submit([encoder.finish()]))?;
+                self.wait()?;
+                Ok(start.elapsed().as_secs_f64())
+            })
+            .collect()
+    }
+
+    fn timed_by_adapter(
+        &self,
+        passes: usize,
+        encode: impl Fn(&mut wgpu::CommandEncoder, usize, Option<&wgpu::QuerySet>),
+    ) -> Result<Vec<f64>, Error> {
         let device = self.device();
-        let queries = self.shared.timestamps.then(|| {
-            device.create_query_set(&wgpu::QuerySetDescriptor {
+        let count = 2 * passes as u32;
+        let size = u64::from(count) * 8;
+        let staging = self.checked("passes", || {
+            let queries = device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timestamps"),
                 ty: wgpu::QueryType::Timestamp,
-                count: 2 * passes,
-            })
-        });
-        let size = u64::from(passes) * 16;
-        let mut staging = None;
-        self.checked("passes", || {
+                count,
+            });
             let mut encoder = device.create_command_encoder(&Default::default());
-            encode(&mut encoder, queries.as_ref());
-            if let Some(queries) = &queries {
-                let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
-                let resolved = self.scratch("timestamps", size, usage);
-                let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
-                let target = self.scratch("timestamps", size, usage);
-                encoder.resolve_query_set(queries, 0..2 * passes, &resolved, 0);
-                encoder.copy_buffer_to_buffer(&resolved, 0, &target, 0, size);
-                staging = Some(target);
+            for index in 0..passes {
+                encode(&mut encoder, index, Some(&queries));
             }
+            let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
+            let resolved = self.scratch("timestamps", size, usage);
+            let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
+            let staging = self.scratch("timestamps", size, usage);
+            encoder.resolve_query_set(&queries, 0..count, &resolved, 0);
+            encoder.copy_buffer_to_buffer(&resolved, 0, &staging, 0, size);
             self.shared.queue.submit([encoder.finish()]);
+            staging
         })?;
-        let Some(staging) = staging else {
-            self.wait()?;
-            return Ok(vec![None; passes as usize]);
-        };
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&self.mapped(&staging)?);
         let period = f64::from(self.shared.queue.get_timestamp_period()) * 1e-9;
-        let seconds = |pair: &[u64]| Some(pair[1].saturating_sub(pair[0]) as f64 * period);
+        let seconds = |pair: &[u64]| pair[1].saturating_sub(pair[0]) as f64 * period;
         Ok(ticks.chunks_exact(2).map(seconds).collect())
     }
 

@@ -69,7 +69,7 @@ fn draw(
             entries: &entries,
         })
     })?;
-    let seconds = gpu.timed(1, |encoder, queries| {
+    let seconds = gpu.timed(1, |encoder, _, queries| {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("visibility"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {

@@ -83,7 +83,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "NAME")]
     pub(crate) camera: Option<String>,
     /// Same seed, same picture
-    #[arg(long, default_value_t = 1, value_name = "N")]
+    #[arg(long, default_value_t = 1, value_name = "N", allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Radiance; a PNG at the scene's exposure is written beside it
     #[arg(short, long, value_name = "OUT.exr")]

@@ -307,7 +307,7 @@ seeds = [1]
             ("id = \"reference\"", "id = \"refernce\"", "did you mean `reference`?"),
             ("[16, 16]", "[0, 16]", "sides must be 1"),
             ("[16, 16]", "[16, 8]", "11×11"),
-            ("[16, 16]", "[16]", "line 15"),
+            ("[16, 16]", "[16]", "line 14"),
             ("reference_samples = 16", "reference_samples = 1", "at least 2"),
             ("seeds = [1]", "seeds = []", "one seed"),
             ("repetitions = 2", "repetitions = 0", "one repetition"),

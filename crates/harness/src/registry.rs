@@ -2,11 +2,12 @@
 
 use manylights_method::Method;
 use manylights_path_tracer::PathTracer;
+use manylights_vpl::Vpl;
 
 use crate::names;
 
 /// Every method, in the order of lists; its position fixes its colour and marker in plots.
-pub const METHODS: &[&dyn Method] = &[&PathTracer];
+pub const METHODS: &[&dyn Method] = &[&PathTracer, &Vpl];
 
 /// The method of this name.
 ///

@@ -121,17 +121,22 @@ fn files_that_are_no_pictures_say_so() {
     assert!(message(&path).contains("DWA"));
 }
 
-/// Writes the last corner of the data window, `xMax` and `yMax`, over that of a small file.
+/// Where the value of an attribute starts.
+fn value_at(bytes: &[u8], attribute: &[u8]) -> usize {
+    let found = bytes.windows(attribute.len()).position(|window| window == attribute);
+    found.expect("the attribute is required") + attribute.len()
+}
+
+/// Writes the last column and row of the data window, and the number of blocks that they would give,
+/// over those of a small file.
 fn claim_size(bytes: &mut [u8], corner: [i32; 2]) {
-    let attribute = b"dataWindow\0box2i\0\x10\0\0\0";
-    let start = bytes
-        .windows(attribute.len())
-        .position(|window| window == attribute)
-        .expect("the attribute is required");
-    let corner_at = start + attribute.len() + 8;
+    let corner_at = value_at(bytes, b"dataWindow\0box2i\0\x10\0\0\0") + 8;
     for (slot, value) in bytes[corner_at..].chunks_exact_mut(4).zip(corner) {
         slot.copy_from_slice(&value.to_le_bytes());
     }
+    let blocks_at = value_at(bytes, b"chunkCount\0int\0\x04\0\0\0");
+    let blocks = corner[1].saturating_add(1).unsigned_abs().div_ceil(16);
+    bytes[blocks_at..][..4].copy_from_slice(&blocks.to_le_bytes());
 }
 
 #[test]
@@ -141,13 +146,15 @@ fn absurd_sizes_are_refused_by_the_header() {
     gradient(16, 16).write_exr(&path, &[]).expect("written");
     let original = fs::read(&path).expect("readable");
     let cases = [
-        ([1_000_000_000, 1_000_000_000], ""),
+        ([1_000_000_000, 1_000_000_000], "at most"),
         ([1_000_000_000, 15], "at most"),
-        ([60_000_000, 0], ""),
-        ([8191, 8191], ""),
-        ([15, 1_000_000_000], ""),
-        ([i32::MAX, i32::MAX], ""),
-        ([i32::MIN, i32::MIN], ""),
+        ([8192, 8191], "at most"),
+        ([60_000_000, 0], "blocks of"),
+        ([8191, 8191], "cannot be in a file of"),
+        ([1_000_000, 15], "cannot be in a file of"),
+        ([15, 1023], "missing bytes"),
+        ([i32::MAX, i32::MAX], "invalid"),
+        ([i32::MIN, i32::MIN], "invalid"),
     ];
     for (corner, expected) in cases {
         let mut bytes = original.clone();

@@ -1,13 +1,12 @@
 //! throw-away
+use glam::Vec3;
 fn main() {
     for what in std::env::args().skip(1) {
-        match manylights_scene::load(&what, Some(std::path::Path::new("/work/shared/assets"))) {
-            Ok(s) => {
-                println!("OK  {what}: {} tris {} verts {} mats {} tex {} lights {} cams; bounds {:?}", s.triangles.len(), s.vertices.len(), s.materials.len(), s.textures.len(), s.lights.len(), s.cameras.len(), s.bounds());
-                for n in &s.notes { println!("      {n}"); }
-                if std::env::var("V").is_ok() { for m in &s.materials { println!("   {:?} {:?} m{} r{} s{} e{:?} t{:?}", m.name, m.base_color, m.metallic, m.roughness, m.specular, m.emission, m.base_color_texture); } for c in &s.cameras { println!("   {c:?}"); } for l in &s.lights { println!("   {l:?}"); } }
-            }
-            Err(e) => println!("ERR {e}"),
+        let s = manylights_scene::load(&what, Some(std::path::Path::new("/work/shared/assets"))).unwrap();
+        for (i, m) in s.materials.iter().enumerate() {
+            let (mut lo, mut hi, mut n) = (Vec3::INFINITY, Vec3::NEG_INFINITY, 0);
+            for t in &s.triangles { if t.material as usize == i { n += 1; for v in t.vertices { lo = lo.min(s.vertices[v as usize].position); hi = hi.max(s.vertices[v as usize].position); } } }
+            println!("{:20} {n:7} {lo:.2} {hi:.2}", m.name);
         }
     }
 }

@@ -76,7 +76,7 @@ fn integrating_sphere_facets_are_as_flat_as_documented() {
         excess += 0.75 * (RADIUS * RADIUS / (plane * plane) - 1.0);
     }
     let mean = excess / scene.triangles.len() as f32;
-    assert!(largest < 2.6e-4, "{largest}");
+    assert!(largest < 2.9e-4, "{largest}");
     assert!(mean < 2.5e-4, "{mean}");
 }
 

@@ -181,8 +181,9 @@ fn counts_and_lengths() {
         ("buffers[0]: byteLength: is 43, but only 42 bytes", |r| {
             r["buffers"][0]["byteLength"] = json!(43);
         }),
-        ("POSITION: has 2 values, other attributes 3", |r| {
-            r["accessors"].as_array_mut().expect("is one").push(r["accessors"][0].clone());
+        ("NORMAL: has 3 values, other attributes 2", |r| {
+            let accessor = r["accessors"][0].clone();
+            r["accessors"].as_array_mut().expect("is one").push(accessor);
             r["accessors"][2]["count"] = json!(2);
             r["meshes"][0]["primitives"][0]["attributes"] = json!({ "NORMAL": 0, "POSITION": 2 });
         }),
@@ -308,7 +309,7 @@ fn lights_cameras_and_materials() {
         root["meshes"][0]["primitives"][0]["material"] = json!(0);
     }
     refused([
-        ("lights[0]: is a spot light without its cone", |r| light(r, json!({ "type": "spot" }))),
+        ("lights[0].spot: Missing data", |r| light(r, json!({ "type": "spot" }))),
         ("lights[0].type", |r| light(r, json!({ "type": "laser" }))),
         ("light: its colour times", |r| light(r, json!({ "type": "point", "intensity": -1 }))),
         ("light: its colour times", |r| light(r, json!({ "type": "point", "intensity": 1e39 }))),

@@ -40,7 +40,7 @@ impl VplRun<'_> {
 
     /// Adds adapter times under one pass name.
     fn add_times(&mut self, times: &[manylights_gpu::PassTime], pass: &'static str) {
-        let seconds: f64 = times.iter().filter_map(|time| time.seconds).sum();
+        let seconds: f64 = times.iter().map(|time| time.seconds).sum();
         match self.times.iter_mut().find(|time| time.pass == pass) {
             Some(time) => time.seconds += seconds,
             None => self.times.push(PassTime { pass, seconds }),

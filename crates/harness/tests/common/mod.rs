@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use manylights_metrics::RadianceImage;
 
 /// Runs the program from the root of the workspace, as the README does.
-pub fn manylights(arguments: &[&str]) -> Output {
+pub(crate) fn manylights(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_manylights"))
         .args(arguments)
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
@@ -17,20 +17,20 @@ pub fn manylights(arguments: &[&str]) -> Output {
 }
 
 /// Asserts exit status 0.
-pub fn succeeded(output: &Output) {
+pub(crate) fn succeeded(output: &Output) {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{:?}: {errors}", output.status);
 }
 
 /// Runs the program and parses its standard output.
-pub fn json(arguments: &[&str]) -> serde_json::Value {
+pub(crate) fn json(arguments: &[&str]) -> serde_json::Value {
     let output = manylights(arguments);
     succeeded(&output);
     serde_json::from_slice(&output.stdout).expect("JSON on standard output")
 }
 
 /// Asserts exit status 2 and a single line that says `said`.
-pub fn refused(arguments: &[&str], said: &str) {
+pub(crate) fn refused(arguments: &[&str], said: &str) {
     let output = manylights(arguments);
     let errors = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {errors}");
@@ -41,7 +41,7 @@ pub fn refused(arguments: &[&str], said: &str) {
 }
 
 /// A picture with all components of one value; its path.
-pub fn write_image(folder: &Path, name: &str, [width, height]: [u32; 2], value: f32) -> String {
+pub(crate) fn write_image(folder: &Path, name: &str, [width, height]: [u32; 2], value: f32) -> String {
     let path = folder.join(name);
     let pixels = vec![[value; 3]; (width * height) as usize];
     RadianceImage { width, height, pixels }.write_exr(&path, &[]).expect("writable");

@@ -57,10 +57,10 @@ fn light_and_cameras(scene: &mut Scene) {
     let position = vec3(2.2, 6.4, 5.2);
     scene.lights.push(Light::Spot {
         position,
-        direction: (vec3(-2.4, 1.3, -0.6) - position).normalize(),
-        intensity: vec3(1.0, 0.93, 0.8) * 600.0,
-        inner: 14_f32.to_radians(),
-        outer: 20_f32.to_radians(),
+        direction: (vec3(-2.2, 1.2, 0.6) - position).normalize(),
+        intensity: vec3(1.0, 0.93, 0.8) * 2500.0,
+        inner: 18_f32.to_radians(),
+        outer: 26_f32.to_radians(),
     });
     let fov = 58_f32.to_radians();
     let nave = (vec3(0.9, 1.7, 9.2), vec3(-0.5, 2.5, -2.0));

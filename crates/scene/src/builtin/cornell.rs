@@ -14,7 +14,7 @@ const GREEN: Vec3 = Vec3::new(0.14, 0.45, 0.091);
 /// Everything Lambertian.
 pub(super) fn lambertian() -> Scene {
     let mut scene = new_box("cornell", Material::lambert("back wall", WHITE));
-    scene.cameras.push(view("front", Vec3::new(0.0, 1.0, 4.4)));
+    scene.cameras.push(view("front", Vec3::new(0.0, 1.0, 3.85)));
     scene
 }
 
@@ -27,7 +27,7 @@ pub(super) fn glossy() -> Scene {
     let alpha = (2.0_f32 / 90.0).sqrt();
     let wall = Material::metal("back wall", Vec3::splat(0.8), alpha.sqrt());
     let mut scene = new_box("cornell-glossy", wall);
-    scene.cameras.push(view("centre", Vec3::new(0.0, 1.0, 4.4)));
+    scene.cameras.push(view("centre", Vec3::new(0.0, 1.0, 3.85)));
     scene.cameras.push(view("left", Vec3::new(-0.6, 1.0, 4.3)));
     scene.cameras.push(view("right", Vec3::new(0.6, 1.0, 4.3)));
     scene
@@ -61,7 +61,7 @@ fn new_box(name: &str, back_wall: Material) -> Scene {
     scene.lights.push(Light::Spot {
         position: vec3(0.0, 1.98, 0.0),
         direction: Vec3::NEG_Y,
-        intensity: vec3(1.0, 0.85, 0.65) * 6.0,
+        intensity: vec3(1.0, 0.85, 0.65) * 16.0,
         inner: 0.2 * PI,
         outer: 0.36 * PI,
     });

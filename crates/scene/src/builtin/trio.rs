@@ -19,28 +19,28 @@ pub(super) fn make() -> Scene {
     mesh::quad(&mut scene, vec3(-4.0, 0.0, -1.6), 5.6 * Vec3::Z, 8.0 * Vec3::X, floor);
     mesh::quad(&mut scene, vec3(-4.0, 0.0, -1.6), 8.0 * Vec3::X, 4.0 * Vec3::Y, wall);
 
-    mesh::icosphere(&mut scene, 4, satin, |d| (vec3(-1.25, 0.6, 0.0) + 0.6 * d, d));
+    mesh::icosphere(&mut scene, 4, satin, |d| (vec3(-1.4, 0.6, 0.0) + 0.6 * d, d));
     let lean = Quat::from_rotation_x(1.15) * Quat::from_rotation_z(0.2);
     mesh::surface(&mut scene, [64, 32], brass, |uv| {
         let (position, normal) = torus(uv, 0.5, 0.2);
-        (vec3(0.05, 0.655, -0.1) + lean * position, lean * normal)
+        (vec3(0.0, 0.66, -0.1) + lean * position, lean * normal)
     });
     let turn = Quat::from_rotation_y(0.6);
     mesh::icosphere(&mut scene, 4, lacquer, |d| {
         let (position, normal) = rounded_cube(d);
-        (vec3(1.3, 0.5, 0.15) + turn * (0.5 * position), turn * normal)
+        (vec3(1.4, 0.5, 0.1) + turn * (0.5 * position), turn * normal)
     });
 
     scene.lights.push(Light::Spot {
-        position: vec3(1.6, 3.2, 2.6),
-        direction: (vec3(-0.1, 0.4, -0.6) - vec3(1.6, 3.2, 2.6)).normalize(),
-        intensity: vec3(1.0, 0.95, 0.85) * 40.0,
+        position: vec3(2.2, 3.8, 3.0),
+        direction: (vec3(-0.2, 0.4, -0.6) - vec3(2.2, 3.8, 3.0)).normalize(),
+        intensity: vec3(1.0, 0.95, 0.85) * 110.0,
         inner: 20_f32.to_radians(),
-        outer: 32_f32.to_radians(),
+        outer: 38_f32.to_radians(),
     });
     scene.cameras.push(Camera::look_at(
         "front",
-        vec3(0.0, 1.35, 4.3),
+        vec3(0.0, 1.4, 4.7),
         vec3(0.0, 0.62, 0.0),
         Vec3::Y,
         38_f32.to_radians(),

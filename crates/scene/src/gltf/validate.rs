@@ -2,7 +2,6 @@
 
 use ::gltf as gltf_crate;
 use gltf_crate::json::accessor::{ComponentType, Type};
-use gltf_crate::json::extensions::scene::khr_lights_punctual::Type as LightType;
 use gltf_crate::json::mesh::{Primitive, Semantic};
 use gltf_crate::json::validation::{Checked, Error, Validate};
 use gltf_crate::json::{Accessor, Index, Path, Root, camera};
@@ -35,7 +34,7 @@ pub(super) fn references(root: &mut Root, notes: &mut Notes) -> Result<(), LoadE
     if let Some((path, error)) = first {
         return Err(broken(path, error));
     }
-    variants(root)
+    projections(root)
 }
 
 /// Violations of the specification that do no harm here: bounds of positions are not used, and a
@@ -64,8 +63,8 @@ fn strip(root: &mut Root, notes: &mut Notes) {
     }
 }
 
-/// Members that go with a `type`; the crate unwraps them.
-fn variants(root: &Root) -> Result<(), LoadError> {
+/// The projection that a camera's `type` names; the crate unwraps it.
+fn projections(root: &Root) -> Result<(), LoadError> {
     for (i, camera) in root.cameras.iter().enumerate() {
         let present = match camera.type_ {
             Checked::Valid(camera::Type::Perspective) => camera.perspective.is_some(),
@@ -73,13 +72,6 @@ fn variants(root: &Root) -> Result<(), LoadError> {
         };
         if !present {
             return Err(broken(format!("cameras[{i}]"), "lacks the projection that its type names"));
-        }
-    }
-    let extension = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
-    for (i, light) in extension.into_iter().flat_map(|e| &e.lights).enumerate() {
-        if light.type_ == Checked::Valid(LightType::Spot) && light.spot.is_none() {
-            let place = format!("extensions.KHR_lights_punctual.lights[{i}]");
-            return Err(broken(place, "is a spot light without its cone"));
         }
     }
     Ok(())

@@ -6,7 +6,7 @@ use manylights_scene::{LoadError, Scene};
 
 /// The folder of real scenes.
 #[allow(dead_code, reason = "not every test binary uses each helper")]
-pub fn assets() -> PathBuf {
+pub(crate) fn assets() -> PathBuf {
     let folder = std::env::var_os("MANYLIGHTS_ASSETS")
         .expect("set MANYLIGHTS_ASSETS to the folder with the shared assets");
     PathBuf::from(folder)
@@ -14,7 +14,7 @@ pub fn assets() -> PathBuf {
 
 /// What every loaded scene promises to renderers.
 #[allow(dead_code, reason = "not every test binary uses each helper")]
-pub fn check_invariants(scene: &Scene, what: &str) {
+pub(crate) fn check_invariants(scene: &Scene, what: &str) {
     for vertex in &scene.vertices {
         assert!(vertex.position.is_finite() && vertex.uv.is_finite(), "{what}: {vertex:?}");
         // Normalising rounds each component by half a unit in the last place: 1e-6 is ample.
@@ -40,7 +40,7 @@ pub fn check_invariants(scene: &Scene, what: &str) {
 
 /// One line of the form `place: problem; remedy`.
 #[allow(dead_code, reason = "not every test binary uses each helper")]
-pub fn check_line(error: &LoadError) -> String {
+pub(crate) fn check_line(error: &LoadError) -> String {
     let line = error.to_string();
     assert!(!line.chars().any(char::is_control), "more than a line: {line:?}");
     let (problem, remedy) = line.rsplit_once("; ").expect("has a remedy");

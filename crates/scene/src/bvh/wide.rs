@@ -1,0 +1,183 @@
+//! Layout and construction: an eight-wide hierarchy, collapsed from the binary one of `obvhs`, with
+//! leaves of packed triangles.
+//!
+//! Node and leaf tests work on all lanes at once. Bounds are full single precision: quantised nodes
+//! are smaller but cost arithmetic in every visit.
+
+use std::time::Duration;
+
+use glam::{Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::ploc::PlocSearchDistance;
+
+/// Children of a node.
+pub(super) const WIDTH: usize = 8;
+/// Triangles in a block.
+pub(super) const PACK: usize = 4;
+
+/// Leaves of up to two blocks, and a box test that costs as much as four triangles (a block): the
+/// fastest of the settings tried on the room of `benches/rays.rs`. Triangles are not split, so that
+/// each is met once.
+const BUILD: BvhBuildParams = BvhBuildParams {
+    pre_split: false,
+    ploc_search_distance: PlocSearchDistance::High,
+    reinsertion_batch_ratio: 0.2,
+    max_prims_per_leaf: 2 * PACK as u32,
+    collapse_traversal_cost: PACK as f32,
+    ..BvhBuildParams::medium_build()
+};
+
+/// Bounds of up to eight children.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// Low x, high x, low y, high y, low z, high z of each child; inverted infinities where there is
+    /// none.
+    pub(super) planes: [[f32; WIDTH]; 6],
+    pub(super) children: [Child; WIDTH],
+}
+
+/// A node, or blocks of triangles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Child(u32);
+
+/// Four triangles, as the intersection test wants them: `[axis][lane]`. Unused lanes are degenerate.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct Block {
+    /// Vertex a.
+    pub(super) corner: [[f32; PACK]; 3],
+    /// a − b.
+    pub(super) from_b: [[f32; PACK]; 3],
+    /// c − a.
+    pub(super) to_c: [[f32; PACK]; 3],
+    pub(super) triangles: [u32; PACK],
+}
+
+/// The hierarchy; the first node is the root.
+#[derive(Debug, Default)]
+pub(super) struct Wide {
+    pub(super) nodes: Vec<Node>,
+    pub(super) blocks: Vec<Block>,
+}
+
+/// What a [`Child`] stands for.
+pub(super) enum Target {
+    Node(usize),
+    Blocks(std::ops::Range<usize>),
+}
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+    const COUNT_BITS: u32 = 2;
+
+    pub(super) const ROOT: Self = Self(0);
+
+    fn node(index: usize) -> Self {
+        assert!(index < Self::LEAF as usize, "more than 2³¹ nodes");
+        Self(index as u32)
+    }
+
+    fn blocks(first: usize, count: usize) -> Self {
+        assert!(count < 1 << Self::COUNT_BITS, "a leaf has one or two blocks");
+        assert!(first < (Self::LEAF >> Self::COUNT_BITS) as usize, "more than 2²⁹ blocks");
+        Self(Self::LEAF | (first as u32) << Self::COUNT_BITS | count as u32)
+    }
+
+    #[inline(always)]
+    pub(super) fn target(self) -> Target {
+        if self.0 & Self::LEAF == 0 {
+            return Target::Node(self.0 as usize);
+        }
+        let first = ((self.0 & !Self::LEAF) >> Self::COUNT_BITS) as usize;
+        Target::Blocks(first..first + (self.0 as usize & ((1 << Self::COUNT_BITS) - 1)))
+    }
+}
+
+impl Wide {
+    pub(super) fn build(triangles: &[[Vec3; 3]]) -> Self {
+        if triangles.is_empty() {
+            return Self::default();
+        }
+        let inputs: Vec<_> = triangles
+            .iter()
+            .map(|corners| corners.map(Vec3A::from))
+            .map(|[v0, v1, v2]| obvhs::triangle::Triangle { v0, v1, v2 })
+            .collect();
+        let binary = build_bvh2_from_tris(&inputs, BUILD, &mut Duration::default());
+        let mut wide = Self { nodes: vec![Node::EMPTY], blocks: Vec::new() };
+        // (slot in `nodes`, index of the binary node that it replaces)
+        let mut pending = vec![(0, 0)];
+        while let Some((slot, root)) = pending.pop() {
+            let mut node = Node::EMPTY;
+            for (lane, index) in children(&binary, root).into_iter().enumerate() {
+                let child = &binary.nodes[index];
+                for axis in 0..3 {
+                    node.planes[2 * axis][lane] = child.aabb().min[axis];
+                    node.planes[2 * axis + 1][lane] = child.aabb().max[axis];
+                }
+                node.children[lane] = if child.is_leaf() {
+                    let first = child.first_index as usize;
+                    let members = &binary.primitive_indices[first..][..child.prim_count as usize];
+                    wide.push_leaf(triangles, members)
+                } else {
+                    pending.push((wide.nodes.len(), index));
+                    wide.nodes.push(Node::EMPTY);
+                    Child::node(wide.nodes.len() - 1)
+                };
+            }
+            wide.nodes[slot] = node;
+        }
+        wide
+    }
+
+    fn push_leaf(&mut self, triangles: &[[Vec3; 3]], members: &[u32]) -> Child {
+        let first = self.blocks.len();
+        self.blocks.extend(members.chunks(PACK).map(|members| Block::new(triangles, members)));
+        Child::blocks(first, self.blocks.len() - first)
+    }
+}
+
+impl Node {
+    const EMPTY: Self = {
+        let (low, high) = ([f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]);
+        Self { planes: [low, high, low, high, low, high], children: [Child::ROOT; WIDTH] }
+    };
+}
+
+impl Block {
+    fn new(triangles: &[[Vec3; 3]], members: &[u32]) -> Self {
+        let zero = [[0.0; PACK]; 3];
+        let mut block = Self { corner: zero, from_b: zero, to_c: zero, triangles: [0; PACK] };
+        for (lane, &triangle) in members.iter().enumerate() {
+            let [a, b, c] = triangles[triangle as usize];
+            let (from_b, to_c) = (a - b, c - a);
+            for axis in 0..3 {
+                block.corner[axis][lane] = a[axis];
+                block.from_b[axis][lane] = from_b[axis];
+                block.to_c[axis][lane] = to_c[axis];
+            }
+            block.triangles[lane] = triangle;
+        }
+        block
+    }
+}
+
+/// Up to eight descendants that replace a binary node: the one of the largest surface is opened until
+/// there are eight.
+fn children(binary: &Bvh2, root: usize) -> Vec<usize> {
+    let mut children = vec![root];
+    while children.len() < WIDTH {
+        let area = |index: usize| binary.nodes[index].aabb().half_area();
+        let largest = (0..children.len())
+            .filter(|&position| !binary.nodes[children[position]].is_leaf())
+            .max_by(|&a, &b| area(children[a]).total_cmp(&area(children[b])));
+        let Some(position) = largest else { break };
+        let first = binary.nodes[children[position]].first_index as usize;
+        children[position] = first;
+        children.push(first + 1);
+    }
+    children
+}

@@ -1,0 +1,57 @@
+//! Virtual point lights against closed forms and against the reference that they converge to.
+
+use manylights_gpu::{Gpu, GpuFrame};
+use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_metrics::RadianceImage;
+use manylights_path_tracer::Settings;
+use manylights_scene::Scene;
+use manylights_scene::builtin::integrating_sphere::{ALBEDO, INTENSITY, RADIUS};
+use manylights_vpl::Vpl;
+
+const TRANSPORT: Transport = Transport::Indirect { bounces: 1, visibility: Visibility::Ignored };
+
+fn vpl(scene: &Scene, resolution: [u32; 2], lights: u64) -> RadianceImage {
+    let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
+    let camera = &scene.cameras[0];
+    let on_gpu = GpuFrame::new(&gpu, scene, camera, resolution).expect("the scene fits");
+    let gpu = Some(&on_gpu);
+    let frame = Frame { scene, camera, resolution, transport: TRANSPORT, seed: 0, gpu };
+    let lights = lights.to_string();
+    let parameters = Parameters::new(Vpl.parameters(), [("lights", &*lights)]).expect("in range");
+    let mut run = Vpl.prepare(&frame, &parameters).expect("vpl renders the scene");
+    while !run.step().expect("a step").finished() {}
+    run.resolve().expect("a picture")
+}
+
+/// One bounce in a closed Lambertian sphere with a light at its centre: ρ²I/(πR²) everywhere.
+#[test]
+fn integrating_sphere() {
+    let scene = manylights_scene::load("integrating-sphere", None).expect("built in");
+    let expected = ALBEDO * ALBEDO * INTENSITY / (std::f32::consts::PI * RADIUS * RADIUS);
+    let image = vpl(&scene, [64, 64], 4096);
+    let mut values: Vec<_> = image.pixels.iter().map(|pixel| pixel[1]).collect();
+    values.sort_by(f32::total_cmp);
+    let median = values[values.len() / 2];
+    println!("median {median}, closed form {expected}");
+    assert!((median / expected - 1.0).abs() < 0.01, "median {median}, closed form {expected}");
+}
+
+/// On a Lambertian scene the error falls with the count, towards the reference whose last segment
+/// ignores visibility.
+#[test]
+fn converges_to_the_reference_without_visibility() {
+    let scene = manylights_scene::load("cornell", None).expect("built in");
+    let resolution = [64, 64];
+    let settings = Settings { transport: TRANSPORT, resolution, seed: 0, samples: 1024 };
+    let reference =
+        manylights_path_tracer::render(&scene, &scene.cameras[0], &settings, None, &mut |_| {})
+            .expect("a reference");
+    let errors: Vec<f64> = [64, 1024, 16_384]
+        .map(|lights| {
+            let image = vpl(&scene, resolution, lights);
+            manylights_metrics::compare_linear(&image, &reference.image).expect("comparable").rmse
+        })
+        .to_vec();
+    println!("RMSE {errors:?}, noise floor {}", reference.noise_floor);
+    assert!(errors[1] < 0.5 * errors[0] && errors[2] < 0.5 * errors[1], "{errors:?}");
+}
