@@ -46,7 +46,11 @@ fn dependencies(manifest: &toml::Table, development: bool) -> Vec<&str> {
         kinds.push("dev-dependencies");
     }
     let sections = tables.iter().flat_map(|table| kinds.iter().filter_map(|kind| table.get(*kind)));
-    sections.filter_map(toml::Value::as_table).flat_map(toml::Table::keys).map(String::as_str).collect()
+    sections
+        .filter_map(toml::Value::as_table)
+        .flat_map(toml::Table::keys)
+        .map(String::as_str)
+        .collect()
 }
 
 fn floor(krate: &str) -> u32 {
@@ -99,7 +103,8 @@ fn infrastructure_never_names_a_method() {
         .collect();
     let truth = manylights_path_tracer::PathTracer.id();
     let ids = METHODS.iter().map(|method| method.id()).filter(|id| *id != truth);
-    let mut names: Vec<String> = methods.iter().copied().chain(ids).map(|n| format!("\"{n}\"")).collect();
+    let mut names: Vec<String> =
+        methods.iter().copied().chain(ids).map(|n| format!("\"{n}\"")).collect();
     names.extend(methods.iter().map(|method| format!("manylights_{}", method.replace('-', "_"))));
     for (krate, _) in FLOORS {
         for (path, text) in texts(&root().join("crates").join(krate).join("src")) {
@@ -149,7 +154,10 @@ fn no_file_names_a_place_of_one_machine() {
         .flat_map(|folder| texts(&root.join(folder)))
         .collect();
     let top = root.read_dir().expect("readable").flatten().map(|entry| entry.path());
-    files.extend(top.filter(|p| p.is_file()).filter_map(|p| Some((p.clone(), std::fs::read_to_string(p).ok()?))));
+    files.extend(
+        top.filter(|p| p.is_file())
+            .filter_map(|p| Some((p.clone(), std::fs::read_to_string(p).ok()?))),
+    );
     assert!(files.len() > 50, "only {} files found", files.len());
     for (path, text) in files {
         for place in &places {

@@ -38,20 +38,25 @@ fn integrating_sphere() {
 
 /// On a Lambertian scene the error falls with the count, towards the reference whose last segment
 /// ignores visibility.
+///
+/// Lights lie on a grid of spacing h ∝ count^(−1/2). Pixels within h of a light see its 1/d² instead
+/// of the mean over its cell: a share ∝ h of those next to edges is wrong by as much as it is bright,
+/// so the RMSE falls with h^(1/2), to a half for 16 times the lights. The bound leaves a factor 1.5.
 #[test]
 fn converges_to_the_reference_without_visibility() {
     let scene = manylights_scene::load("cornell", None).expect("built in");
-    let resolution = [64, 64];
-    let settings = Settings { transport: TRANSPORT, resolution, seed: 0, samples: 1024 };
+    let resolution = [48, 48];
+    let settings = Settings { transport: TRANSPORT, resolution, seed: 0, samples: 2048 };
     let reference =
         manylights_path_tracer::render(&scene, &scene.cameras[0], &settings, None, &mut |_| {})
             .expect("a reference");
-    let errors: Vec<f64> = [64, 1024, 16_384]
-        .map(|lights| {
-            let image = vpl(&scene, resolution, lights);
-            manylights_metrics::compare_linear(&image, &reference.image).expect("comparable").rmse
-        })
-        .to_vec();
+    let errors = [64, 1024, 16_384, 262_144].map(|lights| {
+        let image = vpl(&scene, resolution, lights);
+        manylights_metrics::compare_linear(&image, &reference.image).expect("comparable").rmse
+    });
     println!("RMSE {errors:?}, noise floor {}", reference.noise_floor);
-    assert!(errors[1] < 0.5 * errors[0] && errors[2] < 0.5 * errors[1], "{errors:?}");
+    for pair in errors.windows(2) {
+        assert!(pair[1] < 0.75 * pair[0], "{errors:?}");
+    }
+    assert!(errors[3] < 2.0 * reference.noise_floor, "{errors:?}, {}", reference.noise_floor);
 }

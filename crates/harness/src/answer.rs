@@ -42,6 +42,8 @@ pub(crate) struct Medians {
     pub(crate) seconds: Quartiles,
     /// Of the preparation.
     pub(crate) prepare_seconds: f64,
+    /// What the method counted for the first seed.
+    pub(crate) counters: BTreeMap<String, u64>,
     /// Key of the cell whose picture stands for the row: the first seed's.
     pub(crate) key: String,
     /// By visibility of the reference; medians over seeds.
@@ -132,6 +134,7 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
     RowResult::Done(Box::new(Medians {
         seconds,
         prepare_seconds: prepare.expect("there is a first"),
+        counters: first.2.counters.clone(),
         key: first.1.key.clone(),
         errors: first.2.errors.keys().map(|r| (r.clone(), median_errors(&pictures, r))).collect(),
     }))
@@ -163,4 +166,39 @@ fn median_errors(pictures: &[&Done], reference: &str) -> Comparison {
 /// The value of each metric, for files that hold them all.
 pub(crate) fn values(errors: &Errors) -> impl Iterator<Item = (&'static str, f64)> {
     METRICS.iter().map(move |metric| (metric.id, (metric.value)(errors)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FLOOR: f64 = 0.01;
+
+    fn errors(rmse: f64) -> Errors {
+        Errors { rmse, mse: rmse * rmse, mae: 0.0, psnr: 0.0, ssim: 0.0, rel_mse: 0.0, smape: 0.0 }
+    }
+
+    fn row(variant: usize, rmse: f64) -> Row {
+        let comparison = Comparison {
+            linear: errors(rmse),
+            display: errors(rmse),
+            linear_floor: 0.0,
+            display_floor: FLOOR,
+        };
+        let seconds = Quartiles { lower: 1.0, median: 1.0, upper: 1.0 };
+        let errors = BTreeMap::from([("traced".to_owned(), comparison)]);
+        let counters = BTreeMap::new();
+        let medians =
+            Medians { seconds, prepare_seconds: 0.0, counters, key: String::new(), errors };
+        Row { variant, result: RowResult::Done(Box::new(medians)) }
+    }
+
+    #[test]
+    fn rows_closer_than_the_floor_share_a_rank() {
+        let declined = Row { variant: 3, result: RowResult::Declined("no".into()) };
+        let rows = vec![row(0, 0.5), row(1, 0.105), row(2, 0.1), declined, row(4, 0.2)];
+        let ranks = SceneAnswer { scene: "s".into(), rows }.ranks("traced");
+        let rank = |place, shared| Some(Rank { place, shared });
+        assert_eq!(ranks, [rank(4, false), rank(1, true), rank(1, true), None, rank(3, false)]);
+    }
 }

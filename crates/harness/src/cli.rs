@@ -13,7 +13,11 @@ use crate::experiment::Profile;
 use crate::settings;
 
 #[derive(Parser)]
-#[command(name = "manylights", version, about = "Compares many-light global-illumination methods with a path-traced reference")]
+#[command(
+    name = "manylights",
+    version,
+    about = "Compares many-light global-illumination methods with a path-traced reference"
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -130,7 +134,9 @@ pub(crate) struct RunArguments {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure> {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
-        Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+        Err(error)
+            if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) =>
+        {
             print!("{error}");
             return Ok(());
         }

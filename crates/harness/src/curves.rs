@@ -91,7 +91,8 @@ fn series(experiment: &Experiment) -> Vec<Series> {
     list
 }
 
-/// Points (milliseconds, RMSE of sRGB values) of some variants against a reference.
+/// Points (milliseconds, RMSE of sRGB values) of some variants against a reference, in the order of
+/// the sweep, which need not be that of the measured times.
 fn points(scene: &SceneAnswer, reference: &str, variants: &[usize]) -> Vec<(f64, f64)> {
     let point = |&variant: &usize| {
         let medians = scene.rows[variant].medians()?;
@@ -102,7 +103,7 @@ fn points(scene: &SceneAnswer, reference: &str, variants: &[usize]) -> Vec<(f64,
     variants.iter().filter_map(point).filter(|&(ms, rmse)| ms > 0.0 && rmse > 0.0).collect()
 }
 
-/// Whole decades around all points and floors, the same for all facets.
+/// Around all points and floors, the same for all facets.
 fn ranges(experiment: &Experiment, scenes: &[SceneAnswer]) -> (Range<f64>, Range<f64>) {
     let variants: Vec<usize> = (0..experiment.variants.len()).collect();
     let mut times = Vec::new();
@@ -115,30 +116,44 @@ fn ranges(experiment: &Experiment, scenes: &[SceneAnswer]) -> (Range<f64>, Range
             errors.extend(floor(scene, &reference));
         }
     }
-    (decades(&times), decades(&errors))
+    (bounds(&times), bounds(&errors))
 }
 
 fn floor(scene: &SceneAnswer, reference: &str) -> Option<f64> {
     scene.floor(reference).map(|(_, display)| display).filter(|&floor| floor > 0.0)
 }
 
-fn decades(values: &[f64]) -> Range<f64> {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(0.0, f64::max);
+/// The nearest 1, 2 or 5 times a power of ten around the values, with some room.
+fn bounds(values: &[f64]) -> Range<f64> {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min) / 1.2;
+    let high = values.iter().copied().fold(0.0, f64::max) * 1.2;
     if low > high {
         return 0.1..1.0; // nothing to show
     }
-    let (low, high) = (low.log10().floor(), high.log10().ceil());
-    10_f64.powf(low)..10_f64.powf(high.max(low + 1.0))
+    let steps: Vec<f64> = multiples(low / 10.0..high * 10.0, &[1, 2, 5]).collect();
+    let start = steps.iter().copied().rfind(|&step| step <= low).unwrap_or(low);
+    let end = steps.iter().copied().find(|&step| step >= high).unwrap_or(high);
+    start..end
 }
 
-/// An axis with a labelled line at each decade and fine lines between.
+/// These multiples of all powers of ten within a range, in order.
+fn multiples(range: Range<f64>, digits: &[u32]) -> impl Iterator<Item = f64> {
+    let first = range.start.log10().floor() as i32;
+    let last = range.end.log10().ceil() as i32;
+    // Decimal texts, so that bounds and labels are the same numbers.
+    (first..=last)
+        .flat_map(move |n| digits.iter().map(move |k| format!("{k}e{n}")))
+        .map(|text| text.parse().expect("a number as just written"))
+        .filter(move |step| (range.start..=range.end).contains(step))
+}
+
+/// An axis with a labelled line at each decade and fine lines between; less than two decades have
+/// labels at 2 and 5 as well.
 fn axis(range: Range<f64>) -> Axis {
-    let first = range.start.log10().round() as i32;
-    let last = range.end.log10().round() as i32;
-    let decades = (first..=last).map(|n| 10_f64.powi(n)).collect();
-    let fine = (first..last).flat_map(|n| (2..10).map(move |k| f64::from(k) * 10_f64.powi(n)));
-    range.log_scale().with_key_points(decades).with_light_points(fine)
+    let narrow = range.end / range.start < 100.0;
+    let labelled = multiples(range.clone(), if narrow { &[1, 2, 5] } else { &[1] }).collect();
+    let fine: Vec<f64> = multiples(range.clone(), &[1, 2, 3, 4, 5, 6, 7, 8, 9]).collect();
+    range.log_scale().with_key_points(labelled).with_light_points(fine)
 }
 
 fn draw_facet<'t>(
@@ -177,7 +192,7 @@ fn draw_facet<'t>(
     Ok(())
 }
 
-/// Labels of decades: plain where that is short.
+/// Labels: plain where that is short.
 fn decade(value: f64) -> String {
     if (1e-4..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
 }
@@ -192,9 +207,8 @@ fn draw_floor<'t>(chart: &mut Plane<'_, 't>, floor: f64, times: Range<f64>) -> D
     Ok(())
 }
 
-fn draw_curve<'t>(chart: &mut Plane<'_, 't>, curve: &Series, mut points: Vec<(f64, f64)>) -> Drawn<'t> {
+fn draw_curve<'t>(chart: &mut Plane<'_, 't>, curve: &Series, points: Vec<(f64, f64)>) -> Drawn<'t> {
     let (color, shape) = method_style(curve.method);
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let line = color.stroke_width(2);
     match dashes(curve.nth) {
         None => chart.draw_series(LineSeries::new(points.clone(), line))?,
@@ -251,4 +265,18 @@ fn draw_sample<'t>(
         start += dash + gap;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_end_at_round_numbers() {
+        assert_eq!(bounds(&[0.0043, 0.125]), 0.002..0.2);
+        assert_eq!(bounds(&[7.0, 5300.0]), 5.0..10_000.0);
+        assert_eq!(bounds(&[]), 0.1..1.0);
+        let steps: Vec<f64> = multiples(0.02..1.0, &[1, 5]).collect();
+        assert_eq!(steps, [0.05, 0.1, 0.5, 1.0]);
+    }
 }

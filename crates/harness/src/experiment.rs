@@ -1,12 +1,35 @@
 //! Experiment files: the question that `manylights run` answers.
+//!
+//! ```toml
+//! title = "…"                        # heading of the table
+//! question = "…"
+//! scenes = ["cornell", "scenes/hall.toml"]
+//! transport = "indirect-1"
+//! references = ["traced", "ignored"] # visibility of their last segment; the truth first
+//! [[methods]]                        # any number; all combinations of the values run
+//! id = "…"
+//! parameters = { samples = [16, 64] }
+//! [baseline]                         # one of those; the first where it is left out
+//! id = "…"
+//! parameters = { samples = 16 }
+//! [profiles.quick]                   # and standard, paper
+//! resolution = [96, 96]
+//! reference_samples = 1024
+//! repetitions = 3                    # timed runs of each cell
+//! seeds = [1]
+//! ```
+//!
+//! A curve runs along the first parameter, in the method's own order, that has a list of values; the
+//! others tell curves apart.
 
 use std::path::Path;
 
-use manylights_method::{Parameters, Transport, Visibility};
+use manylights_method::{Transport, Visibility};
 use serde::Deserialize;
 
 use crate::plan::Variant;
-use crate::{names, registry, settings};
+use crate::sweep::Entry;
+use crate::{names, settings};
 
 /// Seed of every reference. No cell may use it: its samples would agree with the reference's.
 pub(crate) const REFERENCE_SEED: u64 = 0x7265_6665;
@@ -66,14 +89,6 @@ struct File {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Entry {
-    id: String,
-    #[serde(default)]
-    parameters: toml::Table,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct Profiles {
     quick: Option<Scale>,
     standard: Option<Scale>,
@@ -126,7 +141,7 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
     let transport: Transport = file.transport.parse()?;
     let mut variants = Vec::new();
     for entry in &file.methods {
-        for variant in combinations(entry)? {
+        for variant in entry.variants()? {
             if variants.contains(&variant) {
                 return Err(format!("methods: `{}` is listed twice", variant.label()));
             }
@@ -187,7 +202,7 @@ pub(crate) fn has_last_segment(transport: Transport) -> bool {
 
 fn baseline(entry: Option<&Entry>, variants: &[Variant]) -> Result<usize, String> {
     let Some(entry) = entry else { return Ok(0) };
-    let wanted = combinations(entry).map_err(|reason| format!("baseline: {reason}"))?;
+    let wanted = entry.variants().map_err(|reason| format!("baseline: {reason}"))?;
     let [wanted] = wanted.as_slice() else {
         return Err("baseline: parameters must be single values".into());
     };
@@ -195,50 +210,6 @@ fn baseline(entry: Option<&Entry>, variants: &[Variant]) -> Result<usize, String
         .iter()
         .position(|variant| variant == wanted)
         .ok_or_else(|| format!("baseline: `{}` is not among the methods", wanted.label()))
-}
-
-/// One variant for each combination of the values of an entry, the last declared parameter fastest.
-fn combinations(entry: &Entry) -> Result<Vec<Variant>, String> {
-    let method = registry::method(&entry.id)?;
-    let mut grid: Vec<Vec<(&str, String)>> = vec![Vec::new()];
-    for (key, value) in &entry.parameters {
-        let values = match value {
-            toml::Value::Array(values) => values.as_slice(),
-            single => std::slice::from_ref(single),
-        };
-        let texts = values.iter().map(|value| number(key, value)).collect::<Result<Vec<_>, _>>()?;
-        grid = grid
-            .iter()
-            .flat_map(|row| {
-                texts.iter().map(move |text| {
-                    row.iter().cloned().chain([(key.as_str(), text.clone())]).collect()
-                })
-            })
-            .collect();
-    }
-    if grid.is_empty() {
-        return Err(format!("methods: `{}` has a parameter without values", entry.id));
-    }
-    let swept = method
-        .parameters()
-        .iter()
-        .map(|info| info.name)
-        .find(|&name| matches!(entry.parameters.get(name), Some(toml::Value::Array(_))));
-    grid.iter()
-        .map(|row| {
-            let pairs = row.iter().map(|(key, text)| (*key, text.as_str()));
-            let parameters: Parameters = settings::parameters(method, pairs)?;
-            Ok(Variant { method, parameters, swept })
-        })
-        .collect()
-}
-
-fn number(key: &str, value: &toml::Value) -> Result<String, String> {
-    match value {
-        toml::Value::Integer(number) => Ok(number.to_string()),
-        toml::Value::Float(number) => Ok(number.to_string()),
-        other => Err(format!("parameter `{key}` = `{other}`: must be a number or a list of them")),
-    }
 }
 
 /// Line number and nearest key from what the TOML reader says.
@@ -291,10 +262,7 @@ seeds = [1]
     fn sweeps_are_written_out_and_the_baseline_is_found() {
         let experiment = parse(GOOD, Profile::Quick).expect("good");
         let labels: Vec<_> = experiment.variants.iter().map(Variant::label).collect();
-        assert_eq!(
-            labels,
-            ["reference samples=1", "reference samples=4", "reference samples=16"]
-        );
+        assert_eq!(labels, ["reference samples=1", "reference samples=4", "reference samples=16"]);
         assert_eq!(experiment.baseline, 1);
         assert_eq!(experiment.references, [Visibility::Traced, Visibility::Ignored]);
     }

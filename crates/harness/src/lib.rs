@@ -23,12 +23,14 @@ mod progress;
 mod provenance;
 mod reference;
 pub mod registry;
+mod scene_run;
 mod session;
 mod settings;
 mod sheet;
 mod stage;
 mod statistics;
 mod style;
+mod sweep;
 mod table;
 
 pub use error::Failure;

@@ -54,12 +54,19 @@ pub(crate) fn measure(
         transport,
         prepare_seconds,
         step_seconds,
-        pass_seconds: run.pass_times().into_iter().map(|t| (t.pass.to_owned(), t.seconds)).collect(),
+        pass_seconds: run
+            .pass_times()
+            .into_iter()
+            .map(|t| (t.pass.to_owned(), t.seconds))
+            .collect(),
         counters: run.counters().into_iter().map(|(name, n)| (name.to_owned(), n)).collect(),
     })
 }
 
-fn step_to_the_end(run: &mut dyn Run, on_step: &mut dyn FnMut(Progress)) -> Result<Duration, Error> {
+fn step_to_the_end(
+    run: &mut dyn Run,
+    on_step: &mut dyn FnMut(Progress),
+) -> Result<Duration, Error> {
     let mut elapsed = Duration::ZERO;
     loop {
         let clock = Instant::now();

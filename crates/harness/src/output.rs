@@ -1,6 +1,6 @@
 //! Where results go. What cannot be written is refused before anything is rendered.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -22,14 +22,29 @@ pub(crate) fn check_directory(directory: &Path, option: &str) -> Result<(), Fail
 /// # Errors
 /// One line where the name does not end in `.exr` or its folder cannot be written.
 pub(crate) fn check_image(path: &Path) -> Result<(PathBuf, PathBuf), Failure> {
-    if path.extension().is_none_or(|extension| extension != "exr") || path.is_dir() {
+    let png = path.with_extension("png");
+    let is_exr = path.extension().is_some_and(|extension| extension == "exr");
+    if !is_exr || path.is_dir() || png.is_dir() {
         return Err(Failure::input(format!(
             "{}: -o needs the name of an .exr file (the .png is written beside it)",
             path.display()
         )));
     }
     NamedTempFile::new_in(folder(path)).map_err(|error| cannot_write(path, "-o", error))?;
-    Ok((path.to_owned(), path.with_extension("png")))
+    Ok((path.to_owned(), png))
+}
+
+/// Prints JSON on standard output. A reader that has read enough is no error.
+///
+/// # Errors
+/// One line where standard output cannot be written.
+pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
+    match writeln!(std::io::stdout().lock(), "{value}") {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::input(format!("standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes a whole file or nothing.

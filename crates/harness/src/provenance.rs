@@ -44,7 +44,13 @@ impl Provenance {
         }
     }
 
-    /// `0.1.0 (abc123)`.
+    /// Whether both differ in the program alone.
+    pub(crate) fn same_machine(&self, other: &Self) -> bool {
+        let machine = |p: &Self| (p.system.clone(), p.cpu.clone(), p.threads, p.adapter.clone());
+        machine(self) == machine(other)
+    }
+
+    /// `manylights 0.1.0 (abc123)`.
     pub(crate) fn program_name(&self) -> String {
         match &self.commit {
             Some(commit) => format!("manylights {} ({commit})", self.version),

@@ -60,6 +60,9 @@ mod tests {
     #[test]
     fn an_unknown_method_is_an_error() {
         assert!(method("no-such-method").is_err());
-        assert_eq!(method("referense").err(), Some("unknown method `referense`: did you mean `reference`?".into()));
+        assert_eq!(
+            method("referense").err(),
+            Some("unknown method `referense`: did you mean `reference`?".into())
+        );
     }
 }

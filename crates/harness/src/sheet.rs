@@ -88,10 +88,7 @@ fn shown(image: &RadianceImage, exposure: f32) -> RgbImage {
 fn pictures(cells: &SceneCells, entries: &[Entry], scale: f32) -> Vec<Tile> {
     let RadianceImage { width, height, .. } = cells.references[0].image;
     let key = Tile {
-        caption: [
-            "mean |error| of R, G, B".into(),
-            format!("0 .. {} W/m2/sr", short(f64::from(scale))),
-        ],
+        caption: ["mean |error| of R, G, B".into(), format!("0 .. {scale} W/m2/sr")],
         picture: shown(&bar(width, height, scale), 1.0),
     };
     let methods = entries.iter().map(|entry| Tile {
@@ -147,7 +144,8 @@ fn scale(entries: &[Entry], references: &[SceneReference]) -> f32 {
     for entry in entries {
         for reference in references {
             let pairs = entry.image.pixels.iter().zip(&reference.image.pixels);
-            errors.extend(pairs.map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f32>() / 3.0));
+            errors
+                .extend(pairs.map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f32>() / 3.0));
         }
     }
     errors.sort_by(f32::total_cmp);
@@ -156,8 +154,10 @@ fn scale(entries: &[Entry], references: &[SceneReference]) -> f32 {
 }
 
 fn round_up(value: f32) -> f32 {
-    let power = 10_f32.powf(value.log10().floor());
-    [1.0, 2.0, 5.0, 10.0].map(|k| k * power).into_iter().find(|&k| k >= value).unwrap_or(value)
+    // In f64, so that the nearest f32 is that of the decimal number and prints as such.
+    let power = 10_f64.powf(f64::from(value).log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| (step * power) as f32);
+    steps.into_iter().find(|&step| step >= value).unwrap_or(value)
 }
 
 fn zoom(width: u32) -> u32 {
@@ -207,8 +207,10 @@ mod tests {
 
     #[test]
     fn scales_are_round() {
-        for (value, round) in [(0.11, 0.2), (0.2, 0.2), (0.3, 0.5), (0.7, 1.0), (3.0, 5.0)] {
-            assert!((round_up(value) - round).abs() < 1e-6 * round, "{value}");
+        for (value, round) in
+            [(0.11, "0.2"), (0.2, "0.2"), (0.003, "0.005"), (0.07, "0.1"), (3.0, "5")]
+        {
+            assert_eq!(round_up(value).to_string(), round);
         }
     }
 }

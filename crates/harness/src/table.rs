@@ -54,8 +54,8 @@ fn scene_table(text: &mut String, experiment: &Experiment, scene: &SceneAnswer, 
     let _ = write!(
         text,
         "\nAgainst the reference with visibility *{reference}*:\n\n\
-         | rank | method | time ms | quartiles | ÷ base | RMSE | ÷ base | PSNR dB | SSIM | RMSE linear |\n\
-         |---:|---|---:|---:|---:|---:|---:|---:|---:|---:|\n"
+         | rank | method | counts | time ms | quartiles | ÷ base | RMSE | ÷ base | PSNR dB | SSIM | RMSE linear |\n\
+         |---:|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n"
     );
     let base = scene.rows[experiment.baseline].medians();
     for (row, rank) in scene.rows.iter().zip(scene.ranks(reference)) {
@@ -65,17 +65,17 @@ fn scene_table(text: &mut String, experiment: &Experiment, scene: &SceneAnswer, 
                 writeln!(text, "{}", numbers(&label, rank, medians, base, reference))
             }
             RowResult::Declined(reason) => {
-                writeln!(text, "| | {label} | declined: {} {}", cell(reason), "| ".repeat(8))
+                writeln!(text, "| | {label} | declined: {} {}", cell(reason), "| ".repeat(9))
             }
             RowResult::Failed(reason) => {
-                writeln!(text, "| | {label} | **failed**: {} {}", cell(reason), "| ".repeat(8))
+                writeln!(text, "| | {label} | **failed**: {} {}", cell(reason), "| ".repeat(9))
             }
         };
     }
     if let Some((linear, display)) = scene.floor(reference) {
         let _ = writeln!(
             text,
-            "| | *noise floor of the reference* | | | | {} | | | | {} |",
+            "| | *noise floor of the reference* | | | | | {} | | | | {} |",
             short(display),
             short(linear)
         );
@@ -94,11 +94,13 @@ fn numbers(
         format!("{}{}", rank.place, if rank.shared { "=" } else { "" })
     });
     let seconds = medians.seconds;
+    let counts: Vec<_> = medians.counters.iter().map(|(name, n)| format!("{n} {name}")).collect();
     let ratio = |value: f64, of: &dyn Fn(&Medians) -> f64| {
         base.map_or_else(String::new, |base| short(value / of(base)))
     };
     format!(
-        "| {rank} | {label} | {} | {}–{} | {} | {} | {} | {:.2} | {:.4} | {} |",
+        "| {rank} | {label} | {} | {} | {}–{} | {} | {} | {} | {:.2} | {:.4} | {} |",
+        counts.join(", "),
         milliseconds(seconds.median),
         milliseconds(seconds.lower),
         milliseconds(seconds.upper),
@@ -179,7 +181,8 @@ fn csv_line(
                 comparison.display_floor,
             ];
             let metrics = values(&comparison.linear).chain(values(&comparison.display));
-            fields.extend(numbers.into_iter().chain(metrics.map(|(_, v)| v)).map(|v| v.to_string()));
+            fields
+                .extend(numbers.into_iter().chain(metrics.map(|(_, v)| v)).map(|v| v.to_string()));
         }
         RowResult::Declined(reason) => fields.push(quoted(&format!("declined: {reason}"))),
         RowResult::Failed(reason) => fields.push(quoted(&format!("failed: {reason}"))),

@@ -20,7 +20,8 @@ fn lists_are_json_where_asked() {
         assert!(scenes.as_array().expect("a list").iter().any(|s| s["name"] == scene), "{scene}");
     }
     let experiments = json(&["list", "experiments", "--json"]);
-    let files: Vec<_> = experiments.as_array().expect("a list").iter().map(|e| &e["file"]).collect();
+    let files: Vec<_> =
+        experiments.as_array().expect("a list").iter().map(|e| &e["file"]).collect();
     assert!(files.contains(&&"results/first-light/experiment.toml".into()), "{files:?}");
 }
 
@@ -151,16 +152,16 @@ fn render_writes_an_exr_and_a_png_of_the_size_asked_for() {
         let path = folder.path().join(name);
         let arguments = ["render", "--scene", "cornell", "--method", "reference", "--seed", seed];
         let more = ["--set", "samples=16", "--resolution", "24x16", "-o"];
-        let output = manylights(
-            &[&arguments[..], &more, &[path.to_str().expect("UTF-8")]].concat(),
-        );
+        let output =
+            manylights(&[&arguments[..], &more, &[path.to_str().expect("UTF-8")]].concat());
         succeeded(&output);
         assert!(output.stdout.is_empty(), "JSON only");
         let png = image::open(path.with_extension("png")).expect("a PNG");
         assert_eq!((png.width(), png.height()), (24, 16));
         RadianceImage::read_exr(&path).expect("an EXR")
     };
-    let [first, again, other] = [("a.exr", "1"), ("b.exr", "1"), ("c.exr", "2")].map(|(n, s)| render(n, s));
+    let [first, again, other] =
+        [("a.exr", "1"), ("b.exr", "1"), ("c.exr", "2")].map(|(n, s)| render(n, s));
     assert_eq!((first.width, first.height, first.non_finite()), (24, 16, 0));
     assert!(first.pixels.iter().flatten().any(|&c| c > 0.0), "black");
     assert_eq!(first, again, "same seed, same bits");
@@ -168,12 +169,40 @@ fn render_writes_an_exr_and_a_png_of_the_size_asked_for() {
 }
 
 #[test]
+fn radiance_beyond_single_precision_fails_the_picture() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let scene = folder.path().join("bright.toml");
+    let text = "about = \"too bright\"\nsource = \"builtin:cornell\"\n[[light]]\nkind = \"point\"\n\
+                position = [0.0, 0.01, 0.0]\nintensity = [3e38, 3e38, 3e38]\n";
+    std::fs::write(&scene, text).expect("writable");
+    let out = folder.path().join("out.exr");
+    let [scene, exr] = [&scene, &out].map(|path| path.to_str().expect("UTF-8"));
+    for transport in ["direct", "indirect-1"] {
+        let arguments = ["render", "--scene", scene, "--method", "reference", "-o", exr];
+        let more = ["--resolution", "16x16", "--transport", transport];
+        let output = manylights(&[&arguments[..], &more].concat());
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{errors}");
+        assert_eq!(errors.lines().count(), 1, "{errors}");
+    }
+}
+
+#[test]
 fn the_adapter_is_opened_only_where_a_method_needs_it() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let out = folder.path().join("out.exr");
-    let arguments = ["render", "--scene", "cornell", "--method", "reference", "--set", "samples=16"];
-    let more = ["--resolution", "16x16", "--adapter", "no such adapter", "-o"];
-    succeeded(&manylights(&[&arguments[..], &more, &[out.to_str().expect("UTF-8")]].concat()));
+    let out = out.to_str().expect("UTF-8");
+    let methods = json(&["list", "methods", "--json"]);
+    for method in methods.as_array().expect("a list") {
+        let id = method["id"].as_str().expect("a name");
+        let arguments = ["render", "--scene", "cornell", "--method", id, "--resolution", "16x16"];
+        let arguments = [&arguments[..], &["--adapter", "no such adapter", "-o", out]].concat();
+        if method["processor"] == "gpu" {
+            refused(&arguments, "adapter");
+        } else {
+            succeeded(&manylights(&arguments));
+        }
+    }
 }
 
 #[test]

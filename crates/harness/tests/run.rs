@@ -65,7 +65,7 @@ fn a_run_writes_its_answer_and_goes_on_after_an_interruption() {
 
     // A damaged line in the middle.
     let mut damaged = second.clone();
-    damaged[2].insert_str(10, "\u{1}");
+    damaged[2].insert(10, '\u{1}');
     std::fs::write(folder.join("out/cells.jsonl"), damaged.join("\n")).expect("writable");
     let errors = run(folder).stderr;
     assert!(String::from_utf8_lossy(&errors).contains("line 3: damaged"));
@@ -98,7 +98,8 @@ fn check_cells(lines: &[String]) {
         assert!(cell["step_seconds"].as_f64().expect("a time") > 0.0);
         assert!(cell["errors"]["ignored"]["linear_floor"].as_f64().expect("a floor") > 0.0);
         assert!(cell["provenance"]["adapter"].is_null(), "none is needed");
-        let (n, rmse) = (&cell["parameters"]["samples"], &cell["errors"]["traced"]["linear"]["rmse"]);
+        let (n, rmse) =
+            (&cell["parameters"]["samples"], &cell["errors"]["traced"]["linear"]["rmse"]);
         let scaled = rmse.as_f64().expect("an error") * n.as_f64().expect("a count").sqrt();
         let floor = cell["errors"]["traced"]["linear_floor"].as_f64().expect("a floor");
         // Noise falls with the root of the samples: that of n samples is that of 64 times √(64/n).

@@ -127,3 +127,6 @@ fn cosine([u, v]: [f32; 2], normal: Vec3) -> Vec3 {
     let disc = v.sqrt() * Vec2::from_angle(TAU * u);
     disc.x * x_axis + disc.y * y_axis + (1.0 - v).sqrt() * normal
 }
+
+#[cfg(test)]
+mod tests;

@@ -70,34 +70,36 @@ impl<'a> Picture<'a> {
     pub(crate) fn slice(&mut self) -> Result<(), Error> {
         let slice = self.slices;
         let this = &*self;
-        let means: Vec<([f32; 3], u64)> = if self.tracer.is_random() {
+        let means: Vec<(Vec3, u64)> = if self.tracer.is_random() {
             (0..self.pixels.len() as u32)
                 .into_par_iter()
                 .map(|index| this.pixel_mean(index, slice))
                 .collect()
         } else {
-            vec![([0.0; 3], 0); self.pixels.len()]
+            vec![(Vec3::ZERO, 0); self.pixels.len()]
         };
         let width = self.resolution[0];
-        for (index, &(value, rays)) in (0..).zip(&means) {
-            if !value.iter().all(|c| c.is_finite()) {
-                return Err(Error::NonFinite { x: index % width, y: index / width, slice, value });
+        for (index, &(mean, rays)) in (0..).zip(&means) {
+            let value = self.pixels[index as usize].exact + mean;
+            if !value.is_finite() {
+                let (x, y, value) = (index % width, index / width, value.to_array());
+                return Err(Error::NonFinite { x, y, slice, value });
             }
-            self.sums[index as usize].add(slice, value);
+            self.sums[index as usize].add(slice, mean.to_array());
             self.rays += rays;
         }
         self.slices += 1;
         Ok(())
     }
 
-    fn pixel_mean(&self, index: u32, slice: u32) -> ([f32; 3], u64) {
-        let Some(hit) = self.pixels[index as usize].hit else { return ([0.0; 3], 0) };
+    fn pixel_mean(&self, index: u32, slice: u32) -> (Vec3, u64) {
+        let Some(hit) = self.pixels[index as usize].hit else { return (Vec3::ZERO, 0) };
         let width = self.resolution[0];
         let direction = self.camera.direction(index % width, index / width, self.resolution);
         let point = self.tracer.primary(hit, direction);
         let mut walk = self.tracer.walk(Sampler::new(self.seed, index, slice));
         let sum: Vec3 = (0..SLICE).map(|sample| walk.sample(&point, -direction, sample)).sum();
-        ((sum / SLICE as f32).to_array(), walk.rays)
+        (sum / SLICE as f32, walk.rays)
     }
 
     /// Slices that are done.

@@ -51,12 +51,7 @@ macro_rules! brdf {
             /// f(v, l) in sr⁻¹, without the cosine. All directions are unit and point away from the
             /// surface. Zero for `l` below the horizon of `normal`; only the specular lobe vanishes
             /// for `v` below it: which side is visible is the geometric normal's business.
-            pub fn eval(
-                &self,
-                normal: glam::$vec3,
-                v: glam::$vec3,
-                l: glam::$vec3,
-            ) -> glam::$vec3 {
+            pub fn eval(&self, normal: glam::$vec3, v: glam::$vec3, l: glam::$vec3) -> glam::$vec3 {
                 let n_l = normal.dot(l);
                 let n_v = normal.dot(v);
                 if n_l <= 0.0 {
@@ -109,7 +104,12 @@ macro_rules! brdf {
 }
 
 brdf!(Brdf, f32, Vec3, "Reflectance at a point, single precision.");
-brdf!(DBrdf, f64, DVec3, "Reflectance at a point, double precision: the oracle of the f32 and WGSL forms.");
+brdf!(
+    DBrdf,
+    f64,
+    DVec3,
+    "Reflectance at a point, double precision: the oracle of the f32 and WGSL forms."
+);
 
 impl From<Brdf> for DBrdf {
     fn from(brdf: Brdf) -> Self {

@@ -68,7 +68,8 @@ impl Bvh {
     /// Builds the hierarchy over all triangles.
     pub fn build(scene: &Scene) -> Self {
         let (low, high) = scene.bounds();
-        let triangles: Vec<_> = (0..scene.triangles.len() as u32).map(|t| scene.corners(t)).collect();
+        let triangles: Vec<_> =
+            (0..scene.triangles.len() as u32).map(|t| scene.corners(t)).collect();
         Self {
             wide: Wide::build(&triangles),
             shift: ORIGIN_SHIFT * low.abs().max(high.abs()).max_element(),

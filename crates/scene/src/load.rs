@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use glam::Vec3;
+
 use crate::builtin::BUILTINS;
-use crate::{LoadError, Scene, gltf, scene_file};
+use crate::{Camera, LoadError, Scene, gltf, scene_file};
 
 /// Where scene files are looked up by name, below the current directory.
 const FOLDER: &str = "scenes";
@@ -37,11 +39,28 @@ pub struct SceneEntry {
 /// # Errors
 /// One line that says what is wrong, where, and how to mend it.
 pub fn load(what: &str, assets: Option<&Path>) -> Result<Scene, LoadError> {
-    if let Some(extension) = Path::new(what).extension() {
-        let path = Path::new(what);
+    let mut scene = find(what, assets)?;
+    if scene.lights.is_empty() && scene.emissive_triangles().next().is_none() {
+        scene.notes.push("no light: every picture is black".to_owned());
+    }
+    if scene.cameras.is_empty() {
+        scene.notes.push("no camera: framed from outside".to_owned());
+        let (low, high) = scene.bounds();
+        scene.cameras.push(frame(low, high));
+    }
+    Ok(scene)
+}
+
+fn find(what: &str, assets: Option<&Path>) -> Result<Scene, LoadError> {
+    let path = Path::new(what);
+    if let Some(extension) = path.extension() {
         match extension.to_ascii_lowercase().to_str() {
             Some("toml") => return scene_file::load(path, assets),
             Some("glb" | "gltf") => return gltf::load(path),
+            _ if path.is_file() => {
+                let remedy = "use a .toml, .glb or .gltf file";
+                return Err(LoadError::new(what, "is not a scene file", remedy));
+            }
             _ => {}
         }
     }
@@ -53,7 +72,17 @@ pub fn load(what: &str, assets: Option<&Path>) -> Result<Scene, LoadError> {
         return scene_file::load(&Path::new(FOLDER).join(format!("{what}.toml")), assets);
     }
     let names = known.iter().map(|entry| entry.name.as_str());
-    Err(LoadError::unknown("scene", "name", what, names))
+    Err(LoadError::unknown("scenes (built-in, or scenes/NAME.toml here)", "name", what, names))
+}
+
+/// A camera that sees the box from `low` to `high` whole, from the front and a little above.
+fn frame(low: Vec3, high: Vec3) -> Camera {
+    const FOV: f32 = 0.7;
+    let centre = low.midpoint(high);
+    let radius = 0.5 * low.distance(high);
+    let distance = if radius > 0.0 { radius / (0.5 * FOV).sin() } else { 1.0 };
+    let position = centre + distance * Vec3::new(0.4, 0.35, 1.0).normalize();
+    Camera::look_at("framed", position, centre, Vec3::Y, FOV)
 }
 
 /// The built-in scenes, then the scene files in `scenes` below the current directory, by name.

@@ -139,11 +139,24 @@ fn crafted_files_with_attributes() {
     let material = &crafted("no_material.glb").expect("loads").materials[0];
     assert_eq!((material.base_color, material.metallic, material.roughness), (Vec3::ONE, 1.0, 1.0));
 
+    // Each node is turned by 2 asin(0.1) about x: −z turns to (0, sin, −cos) of that angle.
     let scene = crafted("lights_punctual.glb").expect("loads");
-    let kind = |wanted: fn(&Light) -> bool| scene.lights.iter().filter(|&light| wanted(light)).count();
-    assert_eq!(kind(|light| matches!(light, Light::Point { .. })), 1);
-    assert_eq!(kind(|light| matches!(light, Light::Spot { .. })), 1);
-    assert_eq!(kind(|light| matches!(light, Light::Directional { .. })), 1);
+    let angle = 2.0 * 0.1_f32.asin();
+    let axis = vec3(0.0, angle.sin(), -angle.cos());
+    let [
+        Light::Point { position, intensity },
+        Light::Spot { position: from, direction, intensity: on_axis, inner, outer },
+        Light::Directional { direction: parallel, irradiance },
+    ] = scene.lights[..]
+    else {
+        panic!("{:?}", scene.lights)
+    };
+    assert_eq!((position, intensity), (vec3(0.0, 0.0, 2.0), vec3(100.0, 0.0, 0.0)));
+    assert_eq!((from, on_axis), (vec3(0.0, 1.0, 2.0), Vec3::splat(50.0)));
+    assert_eq!((inner, outer), (0.2, 0.5));
+    // The file's quaternion has six digits.
+    assert!(direction.abs_diff_eq(axis, 1e-5) && parallel.abs_diff_eq(axis, 1e-5), "{direction}");
+    assert_eq!(irradiance, vec3(3.0, 3.0, 1.5));
 }
 
 /// Triangles of MANIFEST.md less those without area, which import drops and counts.
@@ -182,7 +195,7 @@ fn scene_files_load() {
         let name = path.display().to_string();
         common::check_invariants(&scene, &name);
         assert!(!scene.lights.is_empty() || scene.emissive_triangles().next().is_some(), "{name}");
-        assert!(scene.camera(None).is_ok_and(|camera| camera.name != "framed"), "{name}");
+        assert!(scene.cameras.iter().all(|camera| camera.name != "framed"), "{name}");
     }
 }
 

@@ -66,7 +66,10 @@ fn a_scene_file_adds_and_overrides() {
 
     let white = scene.materials.iter().find(|material| material.name == "white").expect("is one");
     assert_eq!(white.base_color, vec3(0.1, 0.2, 0.3));
-    assert_eq!((white.roughness, white.metallic, white.specular, white.ior), (0.25, 0.5, 1.0, 1.33));
+    assert_eq!(
+        (white.roughness, white.metallic, white.specular, white.ior),
+        (0.25, 0.5, 1.0, 1.33)
+    );
     assert_eq!(white.emission, vec3(7.0, 8.0, 9.0));
 }
 
@@ -81,22 +84,40 @@ fn lights_of_the_source_stay_unless_told_otherwise() {
 #[test]
 fn wrong_files_are_refused_with_a_line() {
     let spot = |rest: &str| {
-        format!("light = [{{ kind = \"spot\", position = [0, 0, 0], intensity = [1, 1, 1], {rest} }}]")
+        format!(
+            "light = [{{ kind = \"spot\", position = [0, 0, 0], intensity = [1, 1, 1], {rest} }}]"
+        )
     };
     let camera =
         |rest: &str| format!("camera = [{{ name = \"a\", position = [0, 0, 0], {rest} }}]");
     let cases = [
-        ("hall.toml:3: unknown field `exposur`", "did you mean `exposure`?", "exposur = 1".to_owned()),
+        (
+            "hall.toml:3: unknown field `exposur`",
+            "did you mean `exposure`?",
+            "exposur = 1".to_owned(),
+        ),
         ("unknown field `targt`", "did you mean `target`?", camera("targt = [0, 0, 1]")),
         ("unknown field `outr`", "did you mean `outer`?", spot("outr = 30")),
-        ("unknown variant `spott`", "did you mean `spot`?", "light = [{ kind = \"spott\" }]".to_owned()),
-        ("unknown field `rough`", "did you mean `roughness`?", "[material.white]\nrough = 1".to_owned()),
+        (
+            "unknown variant `spott`",
+            "did you mean `spot`?",
+            "light = [{ kind = \"spott\" }]".to_owned(),
+        ),
+        (
+            "unknown field `rough`",
+            "did you mean `roughness`?",
+            "[material.white]\nrough = 1".to_owned(),
+        ),
         ("unknown material `wite`", "did you mean `white`?", "[material.wite]".to_owned()),
         ("exposure = 0 is out of range", "use a number from", "exposure = 0".to_owned()),
         ("exposure = NaN is out of range", "use a number from", "exposure = nan".to_owned()),
         ("missing field `vertical_fov`", "correct", camera("target = [0, 0, 1]")),
         ("vertical_fov = 180", "to 175", camera("target = [0, 0, 1], vertical_fov = 180")),
-        ("camera `a`: target − position has no", "direction", camera("target = [0, 0, 0], vertical_fov = 50")),
+        (
+            "camera `a`: target − position has no",
+            "direction",
+            camera("target = [0, 0, 0], vertical_fov = 50"),
+        ),
         ("target is not finite", "finite", camera("target = [0, 0, inf], vertical_fov = 50")),
         ("inner = 31", "to 30", spot("target = [0, 0, 1], inner = 31, outer = 30")),
         ("outer = 90", "to 89", spot("target = [0, 0, 1], inner = 3, outer = 90")),
@@ -107,7 +128,10 @@ fn wrong_files_are_refused_with_a_line() {
     for (problem, remedy, text) in cases {
         let error = load_text(&format!("{HEAD}{text}")).expect_err(&text);
         let line = common::check_line(&error);
-        assert!(line.contains(problem) && line.contains(remedy), "{line}: not `{problem}`, `{remedy}`");
+        assert!(
+            line.contains(problem) && line.contains(remedy),
+            "{line}: not `{problem}`, `{remedy}`"
+        );
     }
 }
 
@@ -115,7 +139,10 @@ fn wrong_files_are_refused_with_a_line() {
 fn wrong_sources_are_refused_with_a_line() {
     let cases = [
         ("builtin:trios", "unknown built-in scene `trios`; did you mean `trio`?"),
-        ("asset:scenes/SponzaCrytek.glb", "no assets folder is set; set MANYLIGHTS_ASSETS or --assets"),
+        (
+            "asset:scenes/SponzaCrytek.glb",
+            "no assets folder is set; set MANYLIGHTS_ASSETS or --assets",
+        ),
         ("nowhere.glb", "nowhere.glb: cannot be read"),
         ("other.toml", "other.toml"),
     ];
@@ -129,6 +156,10 @@ fn wrong_sources_are_refused_with_a_line() {
     assert!(common::check_line(&error).contains("needs the asset `a.glb`"));
     let line = common::check_line(&load("nowhere.toml", None).expect_err("no file"));
     assert!(line.contains("nowhere.toml"), "{line}");
+    let line = common::check_line(&load("Cargo.toml.orig", None).expect_err("no such name"));
+    assert!(line.contains("unknown name `Cargo.toml.orig`"), "{line}");
+    let line = common::check_line(&load("src/lib.rs", None).expect_err("no scene"));
+    assert!(line.contains("src/lib.rs: is not a scene file"), "{line}");
     let line = common::check_line(&load_text("source = \"builtin:trio\"").expect_err("no about"));
     assert!(line.contains("missing field `about`"), "{line}");
 }

@@ -17,6 +17,9 @@ use crate::light_record::{GlossyLight, LambertLight};
 pub(crate) const LAMBERT_CAPACITY: usize = 1024;
 const GLOSSY_CAPACITY: usize = 480;
 
+/// 64 lanes of four pixels.
+const PIXELS_A_GROUP: u32 = 256;
+
 /// The WGSL of the kernel for receivers and lights of the given lobes.
 ///
 /// # Errors
@@ -152,7 +155,7 @@ impl Gather {
     }
 
     fn workgroups(&self) -> [u32; 3] {
-        let groups = self.pixels.div_ceil(64);
+        let groups = self.pixels.div_ceil(PIXELS_A_GROUP);
         // Rows of at most 2¹⁵ groups: adapters guarantee 65 535 in each direction.
         let columns = groups.min(1 << 15);
         [columns, groups.div_ceil(columns), 1]

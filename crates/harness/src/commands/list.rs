@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use crate::cli::{ListArguments, Listed};
 use crate::error::Failure;
 use crate::experiment;
+use crate::output::print_json;
 use crate::registry::METHODS;
 
 /// Where `list experiments` looks.
@@ -25,11 +26,10 @@ pub(crate) fn run(arguments: &ListArguments) -> Result<(), Failure> {
         Listed::Experiments => experiments()?,
     };
     if arguments.json {
-        println!("{}", Value::Array(entries.into_iter().map(|entry| entry.json).collect()));
-    } else {
-        for entry in entries {
-            eprintln!("{}", entry.text);
-        }
+        return print_json(&Value::Array(entries.into_iter().map(|entry| entry.json).collect()));
+    }
+    for entry in entries {
+        eprintln!("{}", entry.text);
     }
     Ok(())
 }
@@ -114,8 +114,8 @@ fn experiments() -> Result<Vec<Entry>, Failure> {
 
 fn experiment_entry(file: &Path) -> Result<Entry, Failure> {
     let name = file.display().to_string();
-    let (title, scenes) = experiment::summary(file)
-        .map_err(|reason| Failure::input(format!("{name}: {reason}")))?;
+    let (title, scenes) =
+        experiment::summary(file).map_err(|reason| Failure::input(format!("{name}: {reason}")))?;
     Ok(Entry {
         text: format!("{name}: {title} ({})", scenes.join(", ")),
         json: json!({ "file": name, "title": title, "scenes": scenes }),

@@ -5,6 +5,7 @@ use serde_json::json;
 
 use crate::cli::MetricsArguments;
 use crate::error::Failure;
+use crate::output::print_json;
 
 /// Prints the errors of one picture against another.
 ///
@@ -18,8 +19,7 @@ pub(crate) fn run(arguments: &MetricsArguments) -> Result<(), Failure> {
     let display = compare_display(&image, &reference, exposure).map_err(Failure::input)?;
     if arguments.json {
         let report = json!({ "linear": linear, "display": display, "exposure": exposure });
-        println!("{report}");
-        return Ok(());
+        return print_json(&report);
     }
     eprintln!("{:<8} {:>12} {:>12}  formula", "metric", "linear", "display");
     for metric in METRICS {

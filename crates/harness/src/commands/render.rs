@@ -53,8 +53,9 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     }
     facts.extend(attributes(&Provenance::here(gpu.as_ref())));
     write(&measured, &facts, &exr, &png, scene.exposure)?;
+    check_finite(&measured, &exr)?;
     report(&measured, &exr, &png);
-    check_finite(&measured, &exr)
+    Ok(())
 }
 
 fn attributes(provenance: &Provenance) -> Vec<(String, String)> {
@@ -83,7 +84,8 @@ fn write(
 }
 
 fn report(measured: &Measured, exr: &Path, png: &Path) {
-    let counters: Vec<_> = measured.counters.iter().map(|(name, n)| format!("{name} {n}")).collect();
+    let counters: Vec<_> =
+        measured.counters.iter().map(|(name, n)| format!("{name} {n}")).collect();
     eprintln!(
         "{} and {}: prepared in {:.3} s, rendered in {:.3} s; {}",
         exr.display(),

@@ -41,6 +41,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut answers = Vec::with_capacity(scenes.len());
     for scene in &scenes {
         let cells = session.scene(scene)?;
+        session.retire(&cells)?;
         let answer = SceneAnswer::new(&experiment, &cells);
         write_sheet(&experiment, &cells, &answer, out)?;
         answers.push(answer);

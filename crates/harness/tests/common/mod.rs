@@ -12,6 +12,8 @@ pub(crate) fn manylights(arguments: &[&str]) -> Output {
         .args(arguments)
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
         .env_remove("MANYLIGHTS_CACHE")
+        // Where it is unset, Mesa writes lines of its own to standard error.
+        .env("XDG_RUNTIME_DIR", std::env::temp_dir())
         .output()
         .expect("the program starts")
 }
@@ -41,7 +43,12 @@ pub(crate) fn refused(arguments: &[&str], said: &str) {
 }
 
 /// A picture with all components of one value; its path.
-pub(crate) fn write_image(folder: &Path, name: &str, [width, height]: [u32; 2], value: f32) -> String {
+pub(crate) fn write_image(
+    folder: &Path,
+    name: &str,
+    [width, height]: [u32; 2],
+    value: f32,
+) -> String {
     let path = folder.join(name);
     let pixels = vec![[value; 3]; (width * height) as usize];
     RadianceImage { width, height, pixels }.write_exr(&path, &[]).expect("writable");

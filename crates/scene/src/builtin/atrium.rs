@@ -58,13 +58,13 @@ fn light_and_cameras(scene: &mut Scene) {
     scene.lights.push(Light::Spot {
         position,
         direction: (vec3(-2.2, 1.2, 0.6) - position).normalize(),
-        intensity: vec3(1.0, 0.93, 0.8) * 2500.0,
+        intensity: vec3(1.0, 0.93, 0.8) * 1500.0,
         inner: 18_f32.to_radians(),
         outer: 26_f32.to_radians(),
     });
     let fov = 58_f32.to_radians();
     let nave = (vec3(0.9, 1.7, 9.2), vec3(-0.5, 2.5, -2.0));
-    let aisle = (vec3(4.1, 1.7, 8.6), vec3(2.2, 1.9, -4.0));
+    let aisle = (vec3(4.4, 1.7, 6.0), vec3(-1.2, 1.9, -3.0));
     scene.cameras.push(Camera::look_at("nave", nave.0, nave.1, Vec3::Y, fov));
     scene.cameras.push(Camera::look_at("aisle", aisle.0, aisle.1, Vec3::Y, fov));
 }
@@ -86,7 +86,13 @@ fn aisle(scene: &mut Scene, side: f32, material: u32) {
     mesh::quad(scene, from(HALF_WIDTH, 0.0), length, AISLE_CEILING * Vec3::Y, material);
     let across = side * (HALF_WIDTH - inner) * Vec3::X;
     mesh::quad(scene, from(inner, AISLE_CEILING), across, length, material);
-    mesh::quad(scene, from(inner, AISLE_CEILING), length, (VAULT - AISLE_CEILING) * Vec3::Y, material);
+    mesh::quad(
+        scene,
+        from(inner, AISLE_CEILING),
+        length,
+        (VAULT - AISLE_CEILING) * Vec3::Y,
+        material,
+    );
 }
 
 /// Half a cylinder over the nave.
@@ -123,9 +129,7 @@ fn arch(scene: &mut Scene, side: f32, z: f32, material: u32) {
     let edge = |u: f32| match (u * (ARCH_SEGMENTS + 2) as f32).round() as u32 {
         0 => vec2(-0.5 * BAY, 0.0),
         step if step == ARCH_SEGMENTS + 2 => vec2(0.5 * BAY, 0.0),
-        step => {
-            ARCH * Vec2::from_angle(PI * (1.0 - (step - 1) as f32 / ARCH_SEGMENTS as f32))
-        }
+        step => ARCH * Vec2::from_angle(PI * (1.0 - (step - 1) as f32 / ARCH_SEGMENTS as f32)),
     };
     for face in [-1.0, 1.0] {
         let x = side * ARCADE + face * HALF_THICKNESS;
@@ -147,9 +151,14 @@ fn drapes(scene: &mut Scene) {
     let red = add(scene, Material::lambert("red drape", vec3(0.6, 0.06, 0.05)));
     let green = add(scene, Material::lambert("green drape", vec3(0.08, 0.36, 0.1)));
     let blue = add(scene, Material::lambert("blue drape", vec3(0.07, 0.14, 0.5)));
-    for (side, bay, material) in
-        [(-1.0, 2, green), (-1.0, 3, red), (-1.0, 5, blue), (1.0, 1, blue), (1.0, 3, green), (1.0, 4, red)]
-    {
+    for (side, bay, material) in [
+        (-1.0, 2, green),
+        (-1.0, 3, red),
+        (-1.0, 5, blue),
+        (1.0, 1, blue),
+        (1.0, 3, green),
+        (1.0, 4, red),
+    ] {
         let middle = vec3(side * ARCADE, 0.0, (bay as f32 + 0.5) * BAY - HALF_LENGTH);
         drape(scene, middle, material);
     }

@@ -61,7 +61,7 @@ fn new_box(name: &str, back_wall: Material) -> Scene {
     scene.lights.push(Light::Spot {
         position: vec3(0.0, 1.98, 0.0),
         direction: Vec3::NEG_Y,
-        intensity: vec3(1.0, 0.85, 0.65) * 16.0,
+        intensity: vec3(1.0, 0.85, 0.65) * 12.0,
         inner: 0.2 * PI,
         outer: 0.36 * PI,
     });

@@ -45,12 +45,12 @@ impl Wide {
                 }
                 Target::Blocks(range) => {
                     for block in &self.blocks[range] {
-                        lanes.block(block, ray.t_min, t_max, |hit| {
+                        let _: ControlFlow<()> = lanes.block(block, ray.t_min, t_max, |hit| {
                             if hit.t <= t_max {
                                 t_max = hit.t;
                                 nearest = Some(hit);
                             }
-                            ControlFlow::<()>::Continue(())
+                            ControlFlow::Continue(())
                         });
                     }
                 }
@@ -153,7 +153,8 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     fn new(simd: S, ray: &Ray) -> Self {
         let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
-        let inverse = direction.map(|d| if d.abs() < SMALLEST { SMALLEST.copysign(d) } else { d }.recip());
+        let inverse =
+            direction.map(|d| if d.abs() < SMALLEST { SMALLEST.copysign(d) } else { d }.recip());
         Self {
             simd,
             inverse: inverse.map(|value| f32x8::splat(simd, value)),
@@ -190,7 +191,9 @@ impl<S: Simd> Lanes<S> {
         mut visit: impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
         let simd = self.simd;
-        let load = |axes: &[[f32; PACK]; 3]| axes.each_ref().map(|lanes| f32x4::load_array_ref(simd, lanes));
+        let load = |axes: &[[f32; PACK]; 3]| {
+            axes.each_ref().map(|lanes| f32x4::load_array_ref(simd, lanes))
+        };
         let splat = |value| f32x4::splat(simd, value);
         let (corner, from_b, to_c) = (load(&block.corner), load(&block.from_b), load(&block.to_c));
         let normal = cross(from_b, to_c);
@@ -210,7 +213,8 @@ impl<S: Simd> Lanes<S> {
             return ControlFlow::Continue(());
         }
         let inverse = splat(1.0) / scale;
-        let (t, u, v) = ((t * inverse).to_array(), (u * inverse).to_array(), (v * inverse).to_array());
+        let (t, u, v) =
+            ((t * inverse).to_array(), (u * inverse).to_array(), (v * inverse).to_array());
         for lane in Set(mask).map(|lane| lane % PACK) {
             let triangle = block.triangles[lane];
             visit(Hit { t: t[lane], triangle, u: u[lane], v: v[lane] })?;

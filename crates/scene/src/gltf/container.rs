@@ -49,7 +49,8 @@ struct Asset {
 /// # Errors
 /// Malformed container or JSON, another version than 2, a required extension that is not understood.
 pub(super) fn open(bytes: &[u8]) -> Result<Parts<'_>, LoadError> {
-    let (json, binary) = if bytes.starts_with(b"glTF") { split(bytes)? } else { (bytes.into(), None) };
+    let (json, binary) =
+        if bytes.starts_with(b"glTF") { split(bytes)? } else { (bytes.into(), None) };
     let parse_error = |error: serde_json::Error| broken("JSON", error);
     check_head(&serde_json::from_slice(&json).map_err(parse_error)?)?;
     let mut value = serde_json::from_slice(&json).map_err(parse_error)?;
@@ -88,7 +89,9 @@ fn split(bytes: &[u8]) -> Result<Chunks<'_>, LoadError> {
     }
     match binary::Glb::from_slice(&bytes[..stated]) {
         Ok(glb) => Ok((glb.json, glb.bin)),
-        Err(gltf_crate::Error::Binary(binary::Error::Version(version))) => Err(version_error(version)),
+        Err(gltf_crate::Error::Binary(binary::Error::Version(version))) => {
+            Err(version_error(version))
+        }
         Err(error) => Err(broken("GLB chunks", error)),
     }
 }

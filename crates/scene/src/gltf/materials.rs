@@ -63,7 +63,9 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
     // A texture would say where it emits; with the factor alone all of it would glow.
     let emission = match material.emissive_texture() {
         Some(_) => Vec3::ZERO,
-        None => Vec3::from(material.emissive_factor()) * material.emissive_strength().unwrap_or(1.0),
+        None => {
+            Vec3::from(material.emissive_factor()) * material.emissive_strength().unwrap_or(1.0)
+        }
     };
     let index = material.index().map_or("default".to_owned(), |index| format!("material-{index}"));
     let made = Material {
@@ -78,7 +80,8 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
         emission,
     };
     let unit = 0.0..=1.0;
-    let in_range = [("baseColorFactor", made.base_color.min_element(), unit.clone()),
+    let in_range = [
+        ("baseColorFactor", made.base_color.min_element(), unit.clone()),
         ("baseColorFactor", made.base_color.max_element(), unit.clone()),
         ("metallicFactor", made.metallic, unit.clone()),
         ("roughnessFactor", made.roughness, unit.clone()),
@@ -88,7 +91,8 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
         // 0 is the extension's own sign for total reflection.
         ("ior", if made.ior == 0.0 { 1.0 } else { made.ior }, 1.0..=f32::MAX),
         ("emissiveFactor", emission.min_element(), 0.0..=f32::MAX),
-        ("emissiveFactor", emission.max_element(), 0.0..=f32::MAX)];
+        ("emissiveFactor", emission.max_element(), 0.0..=f32::MAX),
+    ];
     match in_range.iter().find(|(_, value, range)| !range.contains(value)) {
         Some((factor, value, _)) => Err(broken(factor, format!("{value} is out of range"))),
         None => Ok(made),
@@ -98,10 +102,16 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
 fn note_ignored(material: &gltf_crate::Material, notes: &mut Notes) {
     let surface = material.pbr_metallic_roughness();
     let ignored = [
-        ("metallic-roughness textures replaced by their mean", surface.metallic_roughness_texture().is_some()),
+        (
+            "metallic-roughness textures replaced by their mean",
+            surface.metallic_roughness_texture().is_some(),
+        ),
         ("normal textures ignored", material.normal_texture().is_some()),
         ("occlusion textures ignored", material.occlusion_texture().is_some()),
-        ("emissive textures ignored, their materials emit nothing", material.emissive_texture().is_some()),
+        (
+            "emissive textures ignored, their materials emit nothing",
+            material.emissive_texture().is_some(),
+        ),
         ("materials with an alpha mask, drawn opaque", material.alpha_mode() == AlphaMode::Mask),
         ("blended materials, drawn opaque", material.alpha_mode() == AlphaMode::Blend),
         ("default materials where the file names none", material.index().is_none()),

@@ -76,8 +76,6 @@ fn import(path: &Path) -> Result<Scene, LoadError> {
         scene: Scene { name, exposure: 1.0, ..Scene::default() },
     };
     nodes::add_all(&mut import, roots)?;
-    let Import { mut scene, mut notes, .. } = import;
-    optics::frame(&mut scene, &mut notes);
-    scene.notes = notes.into_lines();
-    Ok(scene)
+    let Import { scene, notes, .. } = import;
+    Ok(Scene { notes: notes.into_lines(), ..scene })
 }

@@ -40,9 +40,11 @@ pub(super) fn roots(root: &Root, notes: &mut Notes) -> Result<Vec<usize>, LoadEr
 /// them.
 fn forest(nodes: &[scene::Node]) -> Result<Vec<usize>, LoadError> {
     let mut has_parent = vec![false; nodes.len()];
-    for (i, child) in nodes.iter().enumerate().flat_map(|(i, node)| {
-        node.children.iter().flatten().map(move |child| (i, child.value()))
-    }) {
+    for (i, child) in nodes
+        .iter()
+        .enumerate()
+        .flat_map(|(i, node)| node.children.iter().flatten().map(move |child| (i, child.value())))
+    {
         if std::mem::replace(&mut has_parent[child], true) {
             let problem = format!("node {child} is the child of more than one node");
             return Err(broken(format!("nodes[{i}].children"), problem));
@@ -97,7 +99,8 @@ fn check_size(root: &Root, nodes: impl Iterator<Item = usize>) -> Result<(), Loa
     if total <= MAX_ELEMENTS {
         return Ok(());
     }
-    let problem = format!("{total} vertices and indices in all instances, more than {MAX_ELEMENTS}");
+    let problem =
+        format!("{total} vertices and indices in all instances, more than {MAX_ELEMENTS}");
     Err(LoadError::new("nodes", problem, "reduce the meshes or their instances"))
 }
 

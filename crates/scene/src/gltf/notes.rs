@@ -16,7 +16,8 @@ impl Notes {
 
     /// `what: number`, a line each.
     pub(super) fn into_lines(self) -> Vec<String> {
-        let line = |(what, number): (String, u64)| format!("{}: {number}", crate::error::one_line(&what));
+        let line =
+            |(what, number): (String, u64)| format!("{}: {number}", crate::error::one_line(&what));
         self.0.into_iter().map(line).collect()
     }
 }

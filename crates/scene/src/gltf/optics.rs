@@ -7,9 +7,8 @@ use glam::{Mat4, Vec3};
 use gltf_crate::camera::Projection;
 use gltf_crate::khr_lights_punctual::Kind;
 
-use super::notes::Notes;
 use super::{Import, broken};
-use crate::{Camera, Light, LoadError, Scene};
+use crate::{Camera, Light, LoadError};
 
 /// Widest half-angle of a spot light: at a right angle its map of texels would be infinite.
 const MAX_CONE: f32 = 89.0 * PI / 180.0;
@@ -36,7 +35,8 @@ pub(super) fn add_light(
         Kind::Spot { inner_cone_angle: inner, outer_cone_angle: outer } => {
             // Exporters round π/2 up.
             if !(0.0 <= inner && inner < outer && outer <= FRAC_PI_2 + 1e-4) {
-                let problem = format!("the angles {inner}, {outer} are not 0 ≤ inner < outer ≤ π/2");
+                let problem =
+                    format!("the angles {inner}, {outer} are not 0 ≤ inner < outer ≤ π/2");
                 return Err(broken("light.spot", problem));
             }
             import.notes.count("spot lights narrowed to 89°", (outer > MAX_CONE).into());
@@ -89,21 +89,4 @@ fn axis(to_world: Mat4, local: Vec3) -> Result<Vec3, LoadError> {
 fn origin(to_world: Mat4) -> Result<Vec3, LoadError> {
     let origin = to_world.w_axis.truncate();
     if origin.is_finite() { Ok(origin) } else { Err(broken("transform", "is not finite")) }
-}
-
-/// Gives a scene without cameras one that sees it whole, from the front and a little above.
-pub(super) fn frame(scene: &mut Scene, notes: &mut Notes) {
-    let dark = scene.lights.is_empty() && scene.emissive_triangles().next().is_none();
-    notes.count("no light in the file", dark.into());
-    if !scene.cameras.is_empty() {
-        return;
-    }
-    const FOV: f32 = 0.7;
-    notes.count("no camera in the file, framed from outside", 1);
-    let (low, high) = scene.bounds();
-    let centre = low.midpoint(high);
-    let radius = 0.5 * low.distance(high);
-    let distance = if radius > 0.0 { radius / (0.5 * FOV).sin() } else { 1.0 };
-    let position = centre + distance * Vec3::new(0.4, 0.35, 1.0).normalize();
-    scene.cameras.push(Camera::look_at("framed", position, centre, Vec3::Y, FOV));
 }

@@ -32,7 +32,8 @@ pub(super) fn add(
         _ => matches!(indices.len(), 1 | 2),
     };
     import.notes.count("primitives with incomplete triangles at their end", left_over.into());
-    let mut builder = Builder { vertices: &vertices, shared: vec![None; vertices.positions.len()], material };
+    let mut builder =
+        Builder { vertices: &vertices, shared: vec![None; vertices.positions.len()], material };
     let mirrored = to_world.determinant() < 0.0;
     for mut corners in triangles(primitive.mode(), &indices) {
         if mirrored {
@@ -48,9 +49,12 @@ pub(super) fn add(
 /// Vertex indices of all triangles in the file's winding (glTF 2.0, section 3.7.2.1).
 fn triangles(mode: Mode, indices: &[u32]) -> Box<dyn Iterator<Item = [u32; 3]> + '_> {
     match mode {
-        Mode::TriangleStrip => Box::new(indices.windows(3).enumerate().map(|(i, corner)| {
-            [corner[0], corner[1 + i % 2], corner[2 - i % 2]]
-        })),
+        Mode::TriangleStrip => Box::new(
+            indices
+                .windows(3)
+                .enumerate()
+                .map(|(i, corner)| [corner[0], corner[1 + i % 2], corner[2 - i % 2]]),
+        ),
         Mode::TriangleFan => {
             Box::new(indices.windows(2).skip(1).map(|edge| [edge[0], edge[1], indices[0]]))
         }
@@ -100,7 +104,9 @@ impl Vertices {
         let uvs = uvs.into_iter().flat_map(|uvs| uvs.into_f32().map(Vec2::from)).collect();
         let colors = primitive.get(&Semantic::Colors(0)).is_some();
         import.notes.count("primitives whose vertex colours are ignored", colors.into());
-        import.notes.count("primitives without normals, flat ones computed", u64::from(normals.is_empty()));
+        import
+            .notes
+            .count("primitives without normals, flat ones computed", u64::from(normals.is_empty()));
         Self { positions, normals, uvs }
     }
 }

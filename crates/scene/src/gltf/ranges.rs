@@ -48,8 +48,9 @@ fn check_accessor(root: &Root, buffers: &Buffers, accessor: &Accessor) -> Result
         None => {}
     }
     match &accessor.sparse {
-        Some(sparse) => check_sparse(root, buffers, sparse, count, size)
-            .map_err(|error| error.within("sparse")),
+        Some(sparse) => {
+            check_sparse(root, buffers, sparse, count, size).map_err(|error| error.within("sparse"))
+        }
         None => Ok(()),
     }
 }

@@ -71,7 +71,10 @@ fn projections(root: &Root) -> Result<(), LoadError> {
             _ => camera.orthographic.is_some(),
         };
         if !present {
-            return Err(broken(format!("cameras[{i}]"), "lacks the projection that its type names"));
+            return Err(broken(
+                format!("cameras[{i}]"),
+                "lacks the projection that its type names",
+            ));
         }
     }
     Ok(())

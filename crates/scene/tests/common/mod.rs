@@ -1,5 +1,8 @@
 //! What several test files share.
 
+#[allow(dead_code, reason = "not every test binary uses each helper")]
+pub(crate) mod triangle;
+
 use std::path::PathBuf;
 
 use manylights_scene::{LoadError, Scene};

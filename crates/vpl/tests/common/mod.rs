@@ -9,19 +9,19 @@ use manylights_metrics::RadianceImage;
 use manylights_scene::Scene;
 use manylights_vpl::{Settings, Vpl, oracle};
 
-pub struct Picture {
-    pub image: RadianceImage,
-    pub oracle: Vec<DVec3>,
+pub(crate) struct Picture {
+    pub(crate) image: RadianceImage,
+    pub(crate) oracle: Vec<DVec3>,
 }
 
 static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
 
-pub fn render(scene: &str, resolution: [u32; 2], settings: &Settings) -> Picture {
+pub(crate) fn render(scene: &str, resolution: [u32; 2], settings: &Settings) -> Picture {
     render_with_seed(scene, resolution, settings, 0)
 }
 
-pub fn render_with_seed(
+pub(crate) fn render_with_seed(
     scene: &str,
     resolution: [u32; 2],
     settings: &Settings,
@@ -31,7 +31,7 @@ pub fn render_with_seed(
     render_scene(&scene, resolution, settings, seed)
 }
 
-pub fn render_scene(
+pub(crate) fn render_scene(
     scene: &Scene,
     resolution: [u32; 2],
     settings: &Settings,

@@ -1,0 +1,206 @@
+//! Runs the cells of one scene: warm-up, clock, errors, journal.
+
+use std::path::PathBuf;
+
+use manylights_method::{Error, Processor};
+
+use crate::cell::{Cell, Done, Inputs, Outcome, image_sha256};
+use crate::error::{Failure, one_line};
+use crate::measure::{self, Measured};
+use crate::plan::{Turn, Variant};
+use crate::progress::Progress;
+use crate::provenance::Provenance;
+use crate::reference::SceneReference;
+use crate::session::{Session, image_path};
+use crate::stage::Stage;
+
+/// One scene in the making.
+pub(crate) struct SceneRun<'s, 'a> {
+    /// What all scenes share.
+    pub(crate) session: &'s mut Session<'a>,
+    /// The scene, ready.
+    pub(crate) stage: Stage<'s>,
+    /// Hash of its content.
+    pub(crate) content: String,
+    /// What the pictures are compared with.
+    pub(crate) references: &'s [SceneReference],
+}
+
+impl SceneRun<'_, '_> {
+    /// Runs what is not in the journal, in this order, and writes each cell down.
+    ///
+    /// # Errors
+    /// One line where a file cannot be written. A cell that fails is recorded as such.
+    pub(crate) fn turns(&mut self, turns: &[Turn]) -> Result<Vec<(Turn, Cell)>, Failure> {
+        let mut progress = Progress::new(&self.stage.scene.name);
+        let experiment = self.session.experiment;
+        let mut warm = vec![false; experiment.variants.len()];
+        let mut cells: Vec<(Turn, Cell)> = Vec::with_capacity(turns.len());
+        for (done, &turn) in turns.iter().enumerate() {
+            progress.set(done as u64, turns.len() as u64);
+            let variant = &experiment.variants[turn.variant];
+            let inputs = self.inputs(variant, turn);
+            let provenance = self.provenance(variant).clone();
+            let key = inputs.key(&provenance);
+            if let Some(cell) = self.finished(&key, turn) {
+                cells.push((turn, cell));
+                continue;
+            }
+            if !std::mem::replace(&mut warm[turn.variant], true) {
+                self.warm_up(variant, turn);
+            }
+            let outcome = self.outcome(variant, turn, &key, &cells)?;
+            let cell = Cell { key, inputs, outcome, provenance };
+            self.session.journal.append(&cell)?;
+            progress.line(&self.summary(turn, &cell));
+            cells.push((turn, cell));
+        }
+        Ok(cells)
+    }
+
+    fn inputs(&self, variant: &Variant, turn: Turn) -> Inputs {
+        let experiment = self.session.experiment;
+        Inputs {
+            scene: self.stage.scene.name.clone(),
+            scene_content: self.content.clone(),
+            method: variant.method.id().to_owned(),
+            parameters: variant.parameters.iter().map(|(k, v)| (k.to_owned(), v)).collect(),
+            seed: turn.seed,
+            repetition: turn.repetition,
+            transport: experiment.transport.to_string(),
+            resolution: self.stage.resolution,
+            exposure: self.stage.scene.exposure,
+            references: self
+                .references
+                .iter()
+                .map(|reference| (reference.visibility.to_string(), reference.samples))
+                .collect(),
+        }
+    }
+
+    fn provenance(&self, variant: &Variant) -> &Provenance {
+        match variant.method.processor() {
+            Processor::Cpu => &self.session.on_cpu,
+            Processor::Gpu => &self.session.on_gpu,
+        }
+    }
+
+    /// A cell of the journal that need not run again: it did not fail, and its picture, if it had
+    /// one, is still there.
+    fn finished(&self, key: &str, turn: Turn) -> Option<Cell> {
+        let cell = self.session.journal.get(key)?;
+        let good = match cell.outcome {
+            Outcome::Done(_) if turn.repetition == 0 => {
+                self.image_path(key).with_extension("exr").exists()
+            }
+            Outcome::Done(_) | Outcome::Declined { .. } => true,
+            Outcome::Failed { .. } => false,
+        };
+        good.then(|| cell.clone())
+    }
+
+    fn image_path(&self, key: &str) -> PathBuf {
+        image_path(self.session.out, &self.stage.scene.name, key)
+    }
+
+    /// Drivers compile at the first dispatch: that one is outside the clock.
+    fn warm_up(&self, variant: &Variant, turn: Turn) {
+        if variant.method.processor() == Processor::Gpu {
+            // What fails here fails again by the clock, where it is recorded.
+            let _ = self.measure(variant, turn);
+        }
+    }
+
+    fn measure(&self, variant: &Variant, turn: Turn) -> Result<Measured, Error> {
+        let frame = self.stage.frame(self.session.experiment.transport, turn.seed);
+        measure::measure(variant.method, &frame, None, &variant.parameters, &mut |_| {})
+    }
+
+    fn outcome(
+        &self,
+        variant: &Variant,
+        turn: Turn,
+        key: &str,
+        earlier: &[(Turn, Cell)],
+    ) -> Result<Outcome, Failure> {
+        let measured = match self.measure(variant, turn) {
+            Ok(measured) => measured,
+            Err(Error::Declined(reason)) => {
+                return Ok(Outcome::Declined { reason: one_line(&reason) });
+            }
+            Err(Error::Failed(reason)) => return Ok(Outcome::Failed { reason: one_line(&reason) }),
+        };
+        if turn.repetition == 0 {
+            self.write_image(&measured, key)?;
+        }
+        Ok(match self.done(measured) {
+            Ok(done) if differs(&done, turn, earlier) => Outcome::Failed {
+                reason: "the picture differs from that of the first repetition".into(),
+            },
+            Ok(done) => Outcome::Done(Box::new(done)),
+            Err(error) => Outcome::Failed { reason: error.to_string() },
+        })
+    }
+
+    fn write_image(&self, measured: &Measured, key: &str) -> Result<(), Failure> {
+        let path = self.image_path(key);
+        let attributes = [("manylights.cell".to_owned(), key.to_owned())];
+        measured
+            .image
+            .write_exr(&path.with_extension("exr"), &attributes)
+            .and_then(|()| {
+                measured.image.write_png(&path.with_extension("png"), self.stage.scene.exposure)
+            })
+            .map_err(Failure::input)
+    }
+
+    fn done(&self, measured: Measured) -> Result<Done, manylights_metrics::Error> {
+        let errors = self
+            .references
+            .iter()
+            .map(|reference| {
+                Ok((reference.visibility.to_string(), reference.compare(&measured.image)?))
+            })
+            .collect::<Result<_, manylights_metrics::Error>>()?;
+        Ok(Done {
+            visibility: measure::visibility(measured.transport).map(|v| v.to_string()),
+            prepare_seconds: measured.prepare_seconds,
+            step_seconds: measured.step_seconds,
+            pass_seconds: measured.pass_seconds,
+            counters: measured.counters,
+            image_sha256: image_sha256(&measured.image),
+            errors,
+        })
+    }
+
+    fn summary(&self, turn: Turn, cell: &Cell) -> String {
+        let variant = self.session.experiment.variants[turn.variant].label();
+        let what = match &cell.outcome {
+            Outcome::Done(done) => {
+                let errors: Vec<_> = done
+                    .errors
+                    .iter()
+                    .map(|(reference, e)| format!("{reference} {:.4}", e.display.rmse))
+                    .collect();
+                format!("{:.4} s, RMSE (sRGB) {}", done.step_seconds, errors.join(", "))
+            }
+            Outcome::Declined { reason } => format!("declined: {reason}"),
+            Outcome::Failed { reason } => format!("FAILED: {reason}"),
+        };
+        format!(
+            "{} {variant} seed {} run {}: {what}",
+            self.stage.scene.name,
+            turn.seed,
+            turn.repetition + 1
+        )
+    }
+}
+
+/// Whether a repetition gave other bits than the first run of the same cell.
+fn differs(done: &Done, turn: Turn, earlier: &[(Turn, Cell)]) -> bool {
+    let first = Turn { repetition: 0, ..turn };
+    earlier.iter().any(|(turn, cell)| {
+        *turn == first
+            && matches!(&cell.outcome, Outcome::Done(other) if other.image_sha256 != done.image_sha256)
+    })
+}

@@ -1,0 +1,138 @@
+//! Same seed, same picture, bit for bit; loud ends.
+
+use glam::Vec3;
+use manylights_method::{Frame, Method, Parameters, Processor, Transport, Visibility};
+use manylights_path_tracer::{Error, PathTracer, Reference, SLICE, Settings, content_hash, render};
+use manylights_scene::{Light, Scene, load};
+
+fn settings(transport: &str, seed: u64) -> Settings {
+    let transport = transport.parse().expect("a transport");
+    Settings { transport, resolution: [31, 17], seed, samples: 2 * SLICE }
+}
+
+fn rendered(scene: &Scene, settings: &Settings, threads: usize) -> Result<Reference, Error> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    pool.install(|| render(scene, &scene.cameras[0], settings, None, &mut |_| {}))
+}
+
+#[test]
+fn the_number_of_threads_does_not_matter() {
+    for (name, transport) in [("trio", "all"), ("cornell-glossy", "indirect-1")] {
+        let scene = load(name, None).expect("a built-in scene");
+        let settings = settings(transport, 5);
+        let one = rendered(&scene, &settings, 1).expect("a picture");
+        for threads in [2, 5] {
+            let many = rendered(&scene, &settings, threads).expect("a picture");
+            assert_eq!(one.image, many.image, "{name}, {threads} threads");
+            assert_eq!(one.variance, many.variance);
+            assert_eq!((one.noise_floor, one.rays), (many.noise_floor, many.rays));
+        }
+    }
+}
+
+#[test]
+fn seeds_make_independent_pictures() {
+    let scene = load("cornell", None).expect("a built-in scene");
+    let render = |seed| rendered(&scene, &settings("indirect-1", seed), 2).expect("a picture");
+    let (a, b) = (render(1), render(1 << 32));
+    assert_ne!(a.image, b.image);
+    // Independent pictures of the same mean differ by √2 of their noise; a third of leeway for
+    // variances from two slices.
+    let squares: f64 = std::iter::zip(a.image.pixels.as_flattened(), b.image.pixels.as_flattened())
+        .map(|(a, b)| f64::from(a - b).powi(2))
+        .sum();
+    let difference = (squares / (3.0 * a.image.pixels.len() as f64)).sqrt();
+    let expected = a.noise_floor.hypot(b.noise_floor);
+    assert!((difference / expected - 1.0).abs() < 0.33, "{difference} {expected}");
+}
+
+/// The method and the reference are one algorithm.
+#[test]
+fn the_method_makes_the_reference() {
+    let scene = load("trio", None).expect("a built-in scene");
+    let settings = settings("all", 3);
+    let reference = rendered(&scene, &settings, 2).expect("a picture");
+    let frame = Frame {
+        scene: &scene,
+        camera: &scene.cameras[0],
+        resolution: settings.resolution,
+        transport: settings.transport,
+        seed: settings.seed,
+        gpu: None,
+    };
+    assert_eq!(PathTracer.processor(), Processor::Cpu);
+    let parameters = Parameters::new(PathTracer.parameters(), [("samples", "17")]).expect("valid");
+    let mut run = PathTracer.prepare(&frame, &parameters).expect("a run");
+    assert!(!run.step().expect("a step").finished());
+    assert!(run.step().expect("a step").finished());
+    assert_eq!(run.resolve().expect("a picture"), reference.image);
+    assert_eq!(run.counters(), [("samples", 32), ("rays", reference.rays)]);
+    assert!(run.pass_times().iter().all(|pass| pass.seconds > 0.0));
+}
+
+#[test]
+fn nothing_is_seen_where_there_is_nothing() {
+    let mut scene = load("cornell", None).expect("a built-in scene");
+    scene.triangles.clear();
+    for transport in ["direct", "indirect-1", "all"] {
+        let reference = rendered(&scene, &settings(transport, 1), 1).expect("a picture");
+        assert!(reference.image.pixels.iter().all(|&pixel| pixel == [0.0; 3]));
+    }
+}
+
+#[test]
+fn radiance_that_is_not_finite_is_an_error() {
+    let mut scene = load("integrating-sphere", None).expect("a built-in scene");
+    for (intensity, transport) in [(f32::INFINITY, "direct"), (f32::MAX, "all"), (f32::NAN, "indirect-1")] {
+        scene.lights = vec![Light::Point { position: Vec3::ZERO, intensity: Vec3::splat(intensity) }];
+        let error = rendered(&scene, &settings(transport, 1), 2).expect_err("no picture");
+        assert!(matches!(error, Error::NonFinite { .. }), "{error}");
+    }
+}
+
+#[test]
+fn settings_without_a_picture_are_refused() {
+    let scene = load("cornell", None).expect("a built-in scene");
+    let good = settings("indirect-1", 1);
+    let ignored = |bounces| Transport::Indirect { bounces, visibility: Visibility::Ignored };
+    for bad in [
+        Settings { resolution: [0, 4], ..good },
+        Settings { resolution: [4, 0], ..good },
+        Settings { resolution: [1 << 16, 1 << 16], ..good },
+        Settings { transport: ignored(2), ..good },
+        Settings { transport: ignored(0), ..good },
+    ] {
+        let error = rendered(&scene, &bad, 1).expect_err("no picture");
+        assert!(matches!(error, Error::Settings(_)), "{error}");
+        assert!(!error.to_string().contains('\n'));
+    }
+}
+
+/// Whatever a picture depends on changes the hash; names and exposure do not.
+#[test]
+fn the_content_hash_sees_what_matters() {
+    let scene = load("cornell", None).expect("a built-in scene");
+    let hash = |scene: &Scene| content_hash(scene, &scene.cameras[0]);
+    let original = hash(&scene);
+    assert_eq!(original.len(), 64);
+    type Change = fn(&mut Scene);
+    let changes: [Change; 7] = [
+        |scene| scene.vertices[0].position.x += 1e-6,
+        |scene| scene.vertices[0].normal.x += 1e-6,
+        |scene| scene.triangles.swap(0, 1),
+        |scene| scene.materials[0].roughness *= 0.999,
+        |scene| scene.lights.clear(),
+        |scene| scene.cameras[0].vertical_fov += 1e-6,
+        |scene| scene.cameras[0].position.y += 1e-6,
+    ];
+    for (index, change) in changes.into_iter().enumerate() {
+        let mut changed = scene.clone();
+        change(&mut changed);
+        assert_ne!(hash(&changed), original, "change {index}");
+    }
+    let mut renamed = scene.clone();
+    renamed.name.push('x');
+    renamed.exposure *= 2.0;
+    renamed.notes.push("x".into());
+    assert_eq!(hash(&renamed), original);
+}

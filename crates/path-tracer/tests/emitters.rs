@@ -1,0 +1,132 @@
+//! Emissive triangles against closed forms.
+
+use std::f64::consts::PI;
+
+use glam::{DVec3, Vec2, Vec3};
+use manylights_path_tracer::{Reference, Settings, render};
+use manylights_scene::bvh::{Bvh, Ray};
+use manylights_scene::{Camera, Material, Scene, Triangle, Vertex};
+
+const ALBEDO: f32 = 0.6;
+const RADIANCE: f32 = 3.0;
+const RESOLUTION: [u32; 2] = [12, 12];
+
+fn add_quad(scene: &mut Scene, corners: [Vec3; 4], material: u32) {
+    let first = scene.vertices.len() as u32;
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+    scene.vertices.extend(corners.map(|position| Vertex { position, normal, uv: Vec2::ZERO }));
+    scene.triangles.push(Triangle { vertices: [first, first + 1, first + 2], material });
+    scene.triangles.push(Triangle { vertices: [first, first + 2, first + 3], material });
+}
+
+/// A quad lamp that faces down, at a height above the floor at which the floor's radiance spans a
+/// wide range.
+fn lamp(height: f32) -> [Vec3; 4] {
+    [(-0.5, -0.4), (0.7, -0.4), (0.7, 0.3), (-0.5, 0.3)].map(|(x, z)| Vec3::new(x, height, z))
+}
+
+fn scene(floor: Material, height: f32) -> Scene {
+    let mut scene = Scene::default();
+    let dark = Material::lambert("lamp", Vec3::ZERO);
+    scene.materials = vec![floor, Material { emission: Vec3::splat(RADIANCE), ..dark }];
+    let corners = [(-3.0, -3.0), (-3.0, 3.0), (3.0, 3.0), (3.0, -3.0)];
+    add_quad(&mut scene, corners.map(|(x, z)| Vec3::new(x, 0.0, z)), 0);
+    add_quad(&mut scene, lamp(height), 1);
+    let eye = Vec3::new(0.0, 2.5, 4.0);
+    scene.cameras.push(Camera::look_at("eye", eye, Vec3::ZERO, Vec3::Y, 0.7));
+    scene
+}
+
+/// Irradiance of a polygon of unit radiance on a plane (Lambert 1760): ½ Σ θᵢ (Γᵢ · n) over its edges.
+fn polygon_irradiance(point: DVec3, normal: DVec3, corners: [Vec3; 4]) -> f64 {
+    let directions = corners.map(|corner| (corner.as_dvec3() - point).normalize());
+    let edge = |i: usize| {
+        let (a, b) = (directions[i], directions[(i + 1) % 4]);
+        let cross = a.cross(b);
+        0.5 * a.dot(b).acos() * cross.normalize().dot(normal)
+    };
+    (0..4).map(edge).sum::<f64>().abs()
+}
+
+fn direct(scene: &Scene, samples: u32) -> Reference {
+    let transport = "direct".parse().expect("a transport");
+    let settings = Settings { transport, resolution: RESOLUTION, seed: 11, samples };
+    render(scene, &scene.cameras[0], &settings, None, &mut |_| {}).expect("a picture")
+}
+
+/// Each pixel within five standard deviations (one in two million leaves them by chance) of which the
+/// estimate from 32 slices may be half, or 0.1 % where the variance is that small.
+#[test]
+fn a_floor_under_a_lamp() {
+    for height in [1.0, 0.05] {
+        let scene = scene(Material::lambert("floor", Vec3::splat(ALBEDO)), height);
+        let reference = direct(&scene, 512);
+        let bvh = Bvh::build(&scene);
+        let camera = &scene.cameras[0];
+        let mut seen = [0, 0, 0];
+        let (mut total, mut expected_total, mut variance) = (0.0, 0.0, 0.0);
+        for (index, pixel) in (0..).zip(&reference.image.pixels) {
+            let direction = camera.direction(index % RESOLUTION[0], index / RESOLUTION[0], RESOLUTION);
+            let expected = match bvh.closest(&Ray::new(camera.position, direction)) {
+                None => 0.0,
+                Some(hit) if hit.triangle >= 2 => 0.0, // the lamp's back
+                Some(hit) => {
+                    let point = (camera.position + hit.t * direction).as_dvec3();
+                    let irradiance = polygon_irradiance(point, DVec3::Y, lamp(height));
+                    f64::from(ALBEDO * RADIANCE) * irradiance / PI
+                }
+            };
+            seen[if expected == 0.0 { 0 } else { 1 }] += 1;
+            let pixel_variance = f64::from(reference.variance.pixels[index as usize][0]);
+            let error = (f64::from(pixel[0]) - expected).abs();
+            let limit = 8.0 * pixel_variance.sqrt() + 1e-3 * expected;
+            assert!(error <= limit, "height {height}, pixel {index}: {pixel:?}, expected {expected} ± {}", pixel_variance.sqrt());
+            total += f64::from(pixel[0]);
+            expected_total += expected;
+            variance += pixel_variance;
+        }
+        assert!(seen[1] > 50, "the floor is not seen");
+        let error = (total - expected_total).abs();
+        assert!(error <= 3.0 * variance.sqrt() + 1e-6 * expected_total, "{total} {expected_total}");
+        assert!(error <= 0.005 * expected_total, "{total} {expected_total}");
+    }
+}
+
+/// Seen from its front a lamp shows its radiance, from its back none.
+#[test]
+fn lamps_emit_from_their_front() {
+    let mut scene = scene(Material::lambert("floor", Vec3::ZERO), 1.0);
+    for (eye, expected) in [(0.1, RADIANCE), (2.0, 0.0)] {
+        let eye = Vec3::new(0.1, eye, 0.0);
+        let target = Vec3::new(0.1, 1.0, 0.001);
+        scene.cameras = vec![Camera::look_at("eye", eye, target, Vec3::X, 0.1)];
+        let reference = direct(&scene, 32);
+        assert!(reference.image.pixels.iter().all(|&pixel| pixel == [expected; 3]));
+    }
+}
+
+/// An emitter that fills the sky above a glossy floor: each of the two strategies fails somewhere on
+/// it alone. Its picture is the floor's albedo times the radiance where the lamp covers all.
+#[test]
+fn a_glossy_floor_under_a_sky() {
+    let floor = Material::metal("floor", Vec3::ONE, 0.3);
+    let mut scene = Scene::default();
+    let dark = Material::lambert("sky", Vec3::ZERO);
+    scene.materials = vec![floor, Material { emission: Vec3::splat(RADIANCE), ..dark }];
+    let square = |size: f32, height: f32| {
+        [(-size, -size), (-size, size), (size, size), (size, -size)].map(|(x, z)| Vec3::new(x, height, z))
+    };
+    add_quad(&mut scene, square(1.0, 0.0), 0);
+    let mut sky = square(1000.0, 1.0);
+    sky.reverse();
+    add_quad(&mut scene, sky, 1);
+    let eye = Vec3::new(0.0, 0.9, 0.0);
+    scene.cameras.push(Camera::look_at("eye", eye, Vec3::ZERO, Vec3::X, 0.05));
+    let reference = direct(&scene, 4096);
+    let mean = reference.image.pixels.iter().map(|p| f64::from(p[0])).sum::<f64>() / 144.0;
+    let variance: f64 = reference.variance.pixels.iter().map(|p| f64::from(p[0])).sum();
+    // The white-furnace albedo at normal view for this roughness, see the tests of the BRDF.
+    let expected = f64::from(RADIANCE) * 0.990_665_5;
+    let error = (mean - expected).abs();
+    assert!(error <= 3.0 * variance.sqrt() / 144.0 + 1e-3 * expected, "{mean} {expected}");
+}

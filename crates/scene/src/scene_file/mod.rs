@@ -1,0 +1,139 @@
+//! Scene files: `scenes/*.toml` names a built-in scene or a glTF file and adds what it lacks.
+
+mod spec;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use self::spec::{CameraSpec, LightSpec, MaterialSpec, number};
+use crate::builtin::BUILTINS;
+use crate::error::suggestion;
+use crate::{LoadError, Scene, gltf};
+
+/// A scene file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneFile {
+    /// One line for `list scenes`, with the credit that the scene's licence asks for.
+    about: String,
+    /// `builtin:NAME`, `asset:PATH` below the assets folder, or a path relative to this file.
+    source: String,
+    /// Factor from radiance to display-referred values.
+    exposure: Option<f32>,
+    /// Whether the source's own lights stay.
+    #[serde(default = "yes")]
+    keep_lights: bool,
+    /// These come before the source's own cameras; the first is the default.
+    #[serde(default)]
+    camera: Vec<CameraSpec>,
+    #[serde(default)]
+    light: Vec<LightSpec>,
+    /// By the name of the material.
+    #[serde(default)]
+    material: BTreeMap<String, MaterialSpec>,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// Loads a scene file and its source.
+pub(crate) fn load(path: &Path, assets: Option<&Path>) -> Result<Scene, LoadError> {
+    let file = read(path)?;
+    let mut scene = source(path, &file.source, assets)?;
+    if let Some(stem) = path.file_stem() {
+        scene.name = stem.to_string_lossy().into_owned();
+    }
+    let place = path.display().to_string();
+    if let Some(exposure) = file.exposure {
+        scene.exposure = number(&place, "exposure", exposure, 1e-12..=1e12)?;
+    }
+    if !file.keep_lights {
+        scene.lights.clear();
+    }
+    for light in &file.light {
+        scene.lights.push(light.light(&place)?);
+    }
+    let cameras: Result<Vec<_>, _> = file.camera.iter().map(|spec| spec.camera(&place)).collect();
+    scene.cameras.splice(0..0, cameras?);
+    for (name, spec) in &file.material {
+        override_material(&mut scene, &place, name, spec)?;
+    }
+    Ok(scene)
+}
+
+/// The `about` line of a scene file.
+pub(crate) fn about(path: &Path) -> Result<String, LoadError> {
+    read(path).map(|file| crate::error::one_line(&file.about))
+}
+
+fn read(path: &Path) -> Result<SceneFile, LoadError> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| LoadError::new(path.display(), error, "check the path"))?;
+    toml::from_str(&text).map_err(|error| {
+        let line = error.span().map(|span| text[..span.start].matches('\n').count() + 1);
+        let place = match line {
+            Some(line) => format!("{}:{line}", path.display()),
+            None => path.display().to_string(),
+        };
+        LoadError::new(place, error.message(), remedy(error.message()))
+    })
+}
+
+/// The nearest key where serde says "unknown field `a`, expected one of `b`, `c`" (or "variant").
+fn remedy(message: &str) -> String {
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    match quoted.next() {
+        Some(word) if message.starts_with("unknown ") => suggestion(word, quoted),
+        _ => "correct the scene file".to_owned(),
+    }
+}
+
+fn source(file: &Path, source: &str, assets: Option<&Path>) -> Result<Scene, LoadError> {
+    if let Some(name) = source.strip_prefix("builtin:") {
+        let names = BUILTINS.iter().map(|builtin| builtin.name);
+        return match BUILTINS.iter().find(|builtin| builtin.name == name) {
+            Some(builtin) => Ok((builtin.make)()),
+            None => Err(LoadError::unknown(file.display(), "built-in scene", name, names)),
+        };
+    }
+    match source.strip_prefix("asset:") {
+        Some(asset) => gltf::load(&asset_path(file, asset, assets)?),
+        None => gltf::load(&file.parent().unwrap_or(Path::new("")).join(source)),
+    }
+}
+
+fn asset_path(file: &Path, asset: &str, assets: Option<&Path>) -> Result<PathBuf, LoadError> {
+    let remedy = "set MANYLIGHTS_ASSETS or --assets to a folder that has it; the models come from \
+                  the archives that README.md lists under Scenes";
+    let Some(assets) = assets else {
+        let problem = format!("needs the asset `{asset}`, and no assets folder is set");
+        return Err(LoadError::new(file.display(), problem, remedy));
+    };
+    let path = assets.join(asset);
+    if path.is_file() {
+        return Ok(path);
+    }
+    let problem = format!("needs the asset `{asset}`, which {} lacks", assets.display());
+    Err(LoadError::new(file.display(), problem, remedy))
+}
+
+fn override_material(
+    scene: &mut Scene,
+    place: &str,
+    name: &str,
+    spec: &MaterialSpec,
+) -> Result<(), LoadError> {
+    let mut found: Vec<_> = scene.materials.iter_mut().filter(|m| m.name == name).collect();
+    if found.is_empty() {
+        let names = scene.materials.iter().map(|material| material.name.as_str());
+        return Err(LoadError::unknown(place, "material", name, names));
+    }
+    let place = format!("{place}: material `{name}`");
+    for material in &mut found {
+        spec.apply(material, &place)?;
+    }
+    Ok(())
+}
