@@ -3,7 +3,7 @@
 //! `time_to_error SCENE CACHE CONVERGED_SAMPLES REPETITIONS SLICES...` renders the scene (a name or a
 //! scene file; assets from `MANYLIGHTS_ASSETS`) with so many slices for each of both transports and
 //! prints a JSON line for each picture: samples, seconds from scene to picture, and RMSE of radiance
-//! against the converged picture outside pixels that show a lamp.
+//! against the converged picture outside pixels that show a lamp or touch one that does.
 
 use std::error::Error;
 use std::path::Path;
@@ -29,6 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let slices = slices.iter().map(|text| text.parse()).collect::<Result<Vec<u32>, _>>()?;
     let converged = converged_picture(&scene, camera, converged.parse()?, Path::new(cache))?;
     let dark = pixels_without_lamp(&scene, camera);
+    eprintln!("{} pixels are left out", dark.iter().filter(|dark| !**dark).count());
     for repetition in 0..repetitions.parse()? {
         for &slices in &slices {
             let start = Instant::now();
@@ -94,16 +95,18 @@ fn sum(pictures: &[RadianceImage]) -> RadianceImage {
     sum
 }
 
+/// Pixels of whose 3 × 3 neighbourhood no centre shows a lamp: a box filter mixes no lamp into them.
 fn pixels_without_lamp(scene: &Scene, camera: &Camera) -> Vec<bool> {
     let bvh = Bvh::build(scene);
     let [width, height] = RESOLUTION;
-    (0..width * height)
-        .map(|index| {
-            let direction = camera.direction(index % width, index / width, RESOLUTION);
-            let hit = bvh.closest(&Ray::new(camera.position, direction));
-            !hit.is_some_and(|hit| scene.emits(hit.triangle))
-        })
-        .collect()
+    let shows_lamp = |x: u32, y: u32| {
+        let direction = camera.direction(x, y, RESOLUTION);
+        let hit = bvh.closest(&Ray::new(camera.position, direction));
+        hit.is_some_and(|hit| scene.emits(hit.triangle))
+    };
+    let around = |at: u32, length: u32| at.saturating_sub(1)..(at + 2).min(length);
+    let no_lamp = |x, y| !around(y, height).any(|y| around(x, width).any(|x| shows_lamp(x, y)));
+    (0..width * height).map(|index| no_lamp(index % width, index / width)).collect()
 }
 
 fn rmse(a: &RadianceImage, b: &RadianceImage, counted: &[bool]) -> f64 {

@@ -23,6 +23,9 @@ pub(crate) struct Emitters {
     shares: Vec<f32>,
     /// Sum of area × mean radiance.
     power: f32,
+    /// Of a sphere around all of them.
+    center: Vec3,
+    radius: f32,
 }
 
 #[derive(Debug)]
@@ -51,7 +54,18 @@ impl Emitters {
             })
             .collect();
         let shares = running.iter().map(|sum| (sum / power) as f32).collect();
-        Self { triangles, shares, power: power as f32 }
+        let corners = || triangles.iter().flat_map(|emitter: &Emitter| emitter.corners);
+        let low = corners().fold(Vec3::INFINITY, Vec3::min);
+        let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
+        let (center, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
+        Self { triangles, shares, power: power as f32, center, radius }
+    }
+
+    /// Whether a point is so far from all of them (a diameter from their centre) that sampling them by
+    /// area suffices for a Lambertian surface there: 1/d² varies by less than 9 over them, and a
+    /// direction drawn from the surface finds them too rarely to help.
+    pub(crate) fn are_far(&self, point: Vec3) -> bool {
+        (point - self.center).length_squared() > 4.0 * self.radius * self.radius
     }
 
     pub(crate) fn is_empty(&self) -> bool {

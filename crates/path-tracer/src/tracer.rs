@@ -120,12 +120,14 @@ impl Walk<'_> {
         let mut radiance = Vec3::ZERO;
         let mut throughput = Vec3::ONE;
         for depth in 0..=tracer.last {
-            let counts = emitters && depth >= tracer.first;
             let lobes = Lobes::new(&point, to_viewer);
+            let counts = emitters && depth >= tracer.first;
+            // Whether the next ray of the path looks for emitters, too.
+            let searches = counts && (point.brdf.has_specular() || !tracer.emitters.are_far(point.position));
             if counts {
-                radiance += throughput * self.emitter(&lobes, &point, emitter_numbers);
+                radiance += throughput * self.emitter(&lobes, &point, emitter_numbers, searches);
             }
-            if depth == tracer.last && !counts {
+            if depth == tracer.last && !searches {
                 break;
             }
             let [a, b, c, d] = self.sampler.group(GROUP_BOUNCES + depth, index);
@@ -138,7 +140,7 @@ impl Walk<'_> {
                 break;
             }
             let Some(next) = self.next(&point, scatter.direction) else { break };
-            if counts && next.emission != Vec3::ZERO {
+            if searches && next.emission != Vec3::ZERO {
                 let density = area_density(scatter.density, &point, &next);
                 let weight = density / (density + tracer.emitters.density(&next));
                 radiance += throughput * weight * next.emission;
@@ -172,7 +174,7 @@ impl Walk<'_> {
             });
             if !tracer.emitters.is_empty() {
                 let lobes = Lobes::new(&next, -scatter.direction);
-                radiance += self.emitter_alone(&lobes, &next, [c, d]);
+                radiance += self.emitter(&lobes, &next, [c, d], false);
             }
         });
         scatter.weight * radiance
@@ -222,23 +224,15 @@ impl Walk<'_> {
         !self.occluded(&Ray::between(self.origin(point, to_next), target))
     }
 
-    /// Direct illumination by emissive triangles through a point on one of them, weighed against the
-    /// path that finds it by chance (Veach 1997, eq. 9.8).
-    fn emitter(&mut self, lobes: &Lobes<'_>, point: &SurfacePoint, numbers: [f32; 2]) -> Vec3 {
-        self.emitter_sample(lobes, point, numbers, |direction| lobes.density(direction))
-    }
-
-    /// The same where no other path counts.
-    fn emitter_alone(&mut self, lobes: &Lobes<'_>, point: &SurfacePoint, numbers: [f32; 2]) -> Vec3 {
-        self.emitter_sample(lobes, point, numbers, |_| 0.0)
-    }
-
-    fn emitter_sample(
+    /// Direct illumination by emissive triangles through a point on one of them; `shared` where a
+    /// direction drawn from the surface may find it, too, and counts with the other part of the
+    /// balance heuristic (Veach 1997, eq. 9.8).
+    fn emitter(
         &mut self,
         lobes: &Lobes<'_>,
         point: &SurfacePoint,
         numbers: [f32; 2],
-        competing: impl Fn(Vec3) -> f32,
+        shared: bool,
     ) -> Vec3 {
         let emitter = self.tracer.emitters.sample(numbers);
         let offset = emitter.position - point.position;
@@ -257,7 +251,8 @@ impl Walk<'_> {
             return Vec3::ZERO;
         }
         let geometry = cos_emitter / distance2;
-        let density = emitter.density + competing(direction) * geometry;
+        let competing = if shared { lobes.density(direction) * geometry } else { 0.0 };
+        let density = emitter.density + competing;
         reflected * emitter.radiance * (geometry / density)
     }
 

@@ -1,5 +1,7 @@
 //! Materials: glTF's metallic-roughness model mapped to [`Brdf`], and base-colour textures.
 
+use std::sync::LazyLock;
+
 use glam::{Vec2, Vec3};
 
 use crate::Brdf;
@@ -118,9 +120,13 @@ impl Texture {
         let x = x.rem_euclid(self.width as i32) as usize;
         let y = y.rem_euclid(self.height as i32) as usize;
         let [r, g, b, _] = self.texels[y * self.width as usize + x];
-        Vec3::new(srgb_to_linear(r), srgb_to_linear(g), srgb_to_linear(b))
+        Vec3::new(LINEAR[usize::from(r)], LINEAR[usize::from(g)], LINEAR[usize::from(b)])
     }
 }
+
+/// [`srgb_to_linear`] of all bytes: a bilinear sample needs twelve.
+static LINEAR: LazyLock<[f32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|byte| srgb_to_linear(byte as u8)));
 
 /// The sRGB transfer function of an 8-bit value (IEC 61966-2-1).
 pub fn srgb_to_linear(encoded: u8) -> f32 {

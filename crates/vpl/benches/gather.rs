@@ -31,7 +31,12 @@ fn gather(frame: &Frame<'_>, parameters: &Parameters) -> (f64, u64) {
 
 fn benchmark(criterion: &mut Criterion) {
     let gpu = Gpu::new(None).expect("an adapter");
-    println!("adapter: {} ({} {})", gpu.report().name, gpu.report().driver, gpu.report().driver_info);
+    println!(
+        "adapter: {} ({} {})",
+        gpu.report().name,
+        gpu.report().driver,
+        gpu.report().driver_info
+    );
     let lights = LIGHTS.to_string();
     let parameters = Parameters::new(Vpl.parameters(), [("lights", &*lights)]).expect("in range");
     let mut group = criterion.benchmark_group("vpl gather");

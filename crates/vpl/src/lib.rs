@@ -23,7 +23,7 @@ mod run;
 use glam::Vec3;
 use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord, VirtualLight};
 use manylights_method::{
-    Error, Frame, Method, ParameterInfo, Parameters, Processor, Run, Transport,
+    Error, Frame, Method, ParameterInfo, Parameters, Processor, Run, Transport, Visibility,
 };
 
 use gather::{Batches, Gather};
@@ -78,8 +78,11 @@ impl Method for Vpl {
 /// The frame on the adapter, where it is one that virtual point lights can render.
 fn accepted<'a>(frame: &Frame<'a>) -> Result<&'a GpuFrame, Error> {
     let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
-    if !matches!(frame.transport, Transport::Indirect { bounces: 1, .. }) {
+    let Transport::Indirect { bounces: 1, visibility } = frame.transport else {
         return declined("computes one indirect bounce: use --transport indirect-1");
+    };
+    if visibility == Visibility::Traced {
+        return declined("has no shadow test for its last segment: use --visibility ignored");
     }
     if frame.scene.emissive_triangles().next().is_some() {
         return declined("needs point-like primary lights; this scene has emissive triangles");
