@@ -21,7 +21,9 @@ const TRANSPORTS: [&str; 2] = ["direct", "indirect-1"];
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<_> = std::env::args().skip(1).collect();
     let [scene, cache, converged, repetitions, slices @ ..] = &arguments[..] else {
-        return Err("usage: time_to_error SCENE CACHE CONVERGED_SAMPLES REPETITIONS SLICES...".into());
+        return Err(
+            "usage: time_to_error SCENE CACHE CONVERGED_SAMPLES REPETITIONS SLICES...".into()
+        );
     };
     let assets = std::env::var_os("MANYLIGHTS_ASSETS");
     let scene = load(scene, assets.as_deref().map(Path::new))?;
@@ -110,7 +112,8 @@ fn pixels_without_lamp(scene: &Scene, camera: &Camera) -> Vec<bool> {
 }
 
 fn rmse(a: &RadianceImage, b: &RadianceImage, counted: &[bool]) -> f64 {
-    let pixels = || std::iter::zip(&a.pixels, &b.pixels).zip(counted).filter(|(_, counted)| **counted);
+    let pixels =
+        || std::iter::zip(&a.pixels, &b.pixels).zip(counted).filter(|(_, counted)| **counted);
     let squares: f64 = pixels()
         .flat_map(|((a, b), _)| std::iter::zip(a, b))
         .map(|(a, b)| f64::from(a - b).powi(2))

@@ -80,7 +80,10 @@ impl CacheFile {
             .chunks_exact(size_of::<f64>())
             .map(|bytes| f64::from_le_bytes(bytes.try_into().expect("chunks of eight bytes")))
             .collect();
-        let sums = numbers.chunks_exact(NUMBERS).map(|numbers| bytemuck::cast_slice::<f64, Sums>(numbers)[0]).collect();
+        let sums = numbers
+            .chunks_exact(NUMBERS)
+            .map(|numbers| bytemuck::cast_slice::<f64, Sums>(numbers)[0])
+            .collect();
         Ok((sums, u32::from_le_bytes(slices)))
     }
 

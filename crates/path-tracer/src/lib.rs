@@ -78,9 +78,8 @@ pub fn render(
 ) -> Result<Reference, Error> {
     let Settings { transport, resolution, seed, samples } = *settings;
     let mut picture = Picture::new(scene, camera, transport, resolution, seed)?;
-    let file = cache.map(|folder| {
-        CacheFile::new(folder, &content::content_digest(scene, camera), settings)
-    });
+    let file = cache
+        .map(|folder| CacheFile::new(folder, &content::content_digest(scene, camera), settings));
     let mut notes = Vec::new();
     if let Some(file) = &file {
         match file.load(picture.sums().len()) {

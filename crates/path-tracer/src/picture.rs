@@ -7,10 +7,10 @@ use manylights_scene::bvh::{Hit, Ray};
 use manylights_scene::{Camera, Scene};
 use rayon::prelude::*;
 
+use crate::Error;
 use crate::sampler::{SLICE, Sampler};
 use crate::sums::{self, Sums};
 use crate::tracer::Tracer;
-use crate::Error;
 
 /// Longest side and most pixels of a picture.
 const MAX_SIDE: u32 = 1 << 16;

@@ -123,7 +123,8 @@ impl Walk<'_> {
             let lobes = Lobes::new(&point, to_viewer);
             let counts = emitters && depth >= tracer.first;
             // Whether the next ray of the path looks for emitters, too.
-            let searches = counts && (point.brdf.has_specular() || !tracer.emitters.are_far(point.position));
+            let searches =
+                counts && (point.brdf.has_specular() || !tracer.emitters.are_far(point.position));
             if counts {
                 radiance += throughput * self.emitter(&lobes, &point, emitter_numbers, searches);
             }

@@ -34,7 +34,8 @@ impl Oracle {
             let count = (POINTS as f32 * area / total).ceil().max(4.0);
             for i in 0..count as u32 {
                 // The R₂ sequence (Roberts 2018), folded into the triangle.
-                let [u, v] = [0.754_877_67, 0.569_840_3].map(|step: f64| (f64::from(i) * step).fract() as f32);
+                let [u, v] = [0.754_877_67, 0.569_840_3]
+                    .map(|step: f64| (f64::from(i) * step).fract() as f32);
                 let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
                 oracle.add(triangle, [u, v], area / count);
             }
@@ -46,7 +47,8 @@ impl Oracle {
         let front = self.scene.geometric_normal(triangle);
         for arriving in [-front, front] {
             let point = self.scene.surface(triangle, u, v, arriving);
-            if self.scene.lights.iter().any(|light| self.illumination(light, &point) != Vec3::ZERO) {
+            if self.scene.lights.iter().any(|light| self.illumination(light, &point) != Vec3::ZERO)
+            {
                 self.lit.push((point, arriving, area));
             }
         }
@@ -60,7 +62,9 @@ impl Oracle {
         }
         let origin = self.bvh.shifted(point.position, point.geometric_normal);
         let ray = match *light {
-            Light::Point { position, .. } | Light::Spot { position, .. } => Ray::between(origin, position),
+            Light::Point { position, .. } | Light::Spot { position, .. } => {
+                Ray::between(origin, position)
+            }
             Light::Directional { direction, .. } => Ray::new(origin, -direction),
         };
         let irradiance = at.irradiance * point.normal.dot(at.to_light).max(0.0);
@@ -80,7 +84,9 @@ impl Oracle {
             }
             if visibility == Visibility::Traced {
                 let target = self.bvh.shifted(y.position, y.geometric_normal);
-                if x.geometric_normal.dot(to_y) <= 0.0 || self.bvh.occluded(&Ray::between(origin, target)) {
+                if x.geometric_normal.dot(to_y) <= 0.0
+                    || self.bvh.occluded(&Ray::between(origin, target))
+                {
                     continue;
                 }
             }
@@ -93,7 +99,8 @@ impl Oracle {
                     y.brdf.eval(y.normal, -to_y, to_light) * self.illumination(light, y)
                 })
                 .sum();
-            let received = x.brdf.eval(x.normal, to_viewer, to_y) * (cos_x * cos_y * area / offset.length_squared());
+            let received = x.brdf.eval(x.normal, to_viewer, to_y)
+                * (cos_x * cos_y * area / offset.length_squared());
             sum += (reflected * received).as_dvec3();
         }
         sum.as_vec3()
@@ -110,19 +117,25 @@ fn assert_agrees(name: &str) {
     for visibility in [Visibility::Traced, Visibility::Ignored] {
         let transport = Transport::Indirect { bounces: 1, visibility };
         let settings = Settings { transport, resolution: RESOLUTION, seed: 3, samples: 1024 };
-        let reference = render(&oracle.scene, camera, &settings, None, &mut |_| {}).expect("a picture");
+        let reference =
+            render(&oracle.scene, camera, &settings, None, &mut |_| {}).expect("a picture");
         let brightest = reference.image.pixels.iter().flatten().fold(0.0, |a: f32, &b| a.max(b));
         assert!(brightest > 0.0);
         let mut differing = Vec::new();
         for (index, pixel) in (0..).zip(&reference.image.pixels) {
-            let direction = camera.direction(index % RESOLUTION[0], index / RESOLUTION[0], RESOLUTION);
-            let Some(hit) = oracle.bvh.closest(&Ray::new(camera.position, direction)) else { continue };
+            let direction =
+                camera.direction(index % RESOLUTION[0], index / RESOLUTION[0], RESOLUTION);
+            let Some(hit) = oracle.bvh.closest(&Ray::new(camera.position, direction)) else {
+                continue;
+            };
             let x = oracle.scene.surface(hit.triangle, hit.u, hit.v, direction).facing(-direction);
             let expected = oracle.radiance(&x, -direction, visibility);
-            let deviation = Vec3::from(reference.variance.pixels[index as usize]).max_element().sqrt();
+            let deviation =
+                Vec3::from(reference.variance.pixels[index as usize]).max_element().sqrt();
             let error = (Vec3::from(*pixel) - expected).abs().max_element();
             if error > 4.0 * deviation + 0.01 * brightest {
-                differing.push(format!("pixel {index}: {pixel:?}, expected {expected} ± {deviation}"));
+                differing
+                    .push(format!("pixel {index}: {pixel:?}, expected {expected} ± {deviation}"));
             }
         }
         assert!(differing.len() <= 2, "{name}, {visibility}: {differing:#?}");

@@ -83,8 +83,11 @@ fn nothing_is_seen_where_there_is_nothing() {
 #[test]
 fn radiance_that_is_not_finite_is_an_error() {
     let mut scene = load("integrating-sphere", None).expect("a built-in scene");
-    for (intensity, transport) in [(f32::INFINITY, "direct"), (f32::MAX, "all"), (f32::NAN, "indirect-1")] {
-        scene.lights = vec![Light::Point { position: Vec3::ZERO, intensity: Vec3::splat(intensity) }];
+    for (intensity, transport) in
+        [(f32::INFINITY, "direct"), (f32::MAX, "all"), (f32::NAN, "indirect-1")]
+    {
+        scene.lights =
+            vec![Light::Point { position: Vec3::ZERO, intensity: Vec3::splat(intensity) }];
         let error = rendered(&scene, &settings(transport, 1), 2).expect_err("no picture");
         assert!(matches!(error, Error::NonFinite { .. }), "{error}");
     }

@@ -13,7 +13,8 @@ use manylights_scene::{Light, Scene, load};
 /// by δ, which raises its irradiance by 2δ/R; and of the light that the smooth normal gathers, the
 /// part below the plane of the facet is lost: θ²/4 where the normals differ by θ = √(2δ/R).
 fn facets(scene: &Scene) -> f64 {
-    let distance = |triangle| scene.geometric_normal(triangle).dot(scene.corners(triangle)[0]).abs();
+    let distance =
+        |triangle| scene.geometric_normal(triangle).dot(scene.corners(triangle)[0]).abs();
     let nearest = (0..scene.triangles.len() as u32).map(distance).fold(RADIUS, f32::min);
     2.5 * f64::from(1.0 - nearest / RADIUS)
 }

@@ -8,16 +8,17 @@ use manylights_scene::bvh::{Bvh, Ray};
 use manylights_scene::{Camera, Material, Scene, Triangle, Vertex};
 
 /// Rays of each set: one for each pixel of this square.
-pub const SIDE: u32 = 512;
+pub(crate) const SIDE: u32 = 512;
 
 /// The names of the sets of [`rays`].
-pub const SETS: [&str; 3] = ["primary", "diffuse", "any-hit"];
+pub(crate) const SETS: [&str; 3] = ["primary", "diffuse", "any-hit"];
 
 const SIZE: Vec3 = Vec3::new(6.0, 4.0, 5.0);
 
 /// Twelve spheres of 19 200 triangles and a torus of 54 398 in a box of 12.
-pub fn scene() -> Scene {
-    let mut scene = Scene { materials: vec![Material::lambert("wall", Vec3::splat(0.7))], ..Scene::default() };
+pub(crate) fn scene() -> Scene {
+    let mut scene =
+        Scene { materials: vec![Material::lambert("wall", Vec3::splat(0.7))], ..Scene::default() };
     for face in 0..6 {
         grid(&mut scene, [1, 1], |uv| (0.5 + 0.5 * cube(face, uv)) * SIZE);
     }
@@ -45,7 +46,7 @@ pub fn scene() -> Scene {
 }
 
 /// The sets of rays.
-pub fn rays(scene: &Scene, bvh: &Bvh) -> [Vec<Ray>; 3] {
+pub(crate) fn rays(scene: &Scene, bvh: &Bvh) -> [Vec<Ray>; 3] {
     let mut sets = [const { Vec::new() }; 3];
     let camera = &scene.cameras[0];
     for index in 0..SIDE * SIDE {
@@ -71,7 +72,7 @@ pub fn rays(scene: &Scene, bvh: &Bvh) -> [Vec<Ray>; 3] {
 /// Point (u, v) of a face of the cube [−1, 1]³.
 fn cube(face: usize, uv: Vec2) -> Vec3 {
     let mut point = [0.0; 3];
-    point[face / 2] = if face % 2 == 0 { 1.0 } else { -1.0 };
+    point[face / 2] = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
     point[(face / 2 + 1) % 3] = 2.0 * uv.x - 1.0;
     point[(face / 2 + 2) % 3] = 2.0 * uv.y - 1.0;
     Vec3::from_array(point)

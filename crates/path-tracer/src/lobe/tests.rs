@@ -164,7 +164,8 @@ fn mean_weights_are_the_albedo() {
             squares += (weight * weight).as_dvec3();
         }
         let mean = sum / f64::from(count);
-        let deviation = ((squares / f64::from(count) - mean * mean) / f64::from(count)).map(f64::sqrt);
+        let deviation =
+            ((squares / f64::from(count) - mean * mean) / f64::from(count)).map(f64::sqrt);
         let error = (mean - expected).abs() - 5.0 * deviation;
         assert!(error.max_element() < 1e-3, "{mean} {expected} ± {deviation}: {point:?}");
     });
