@@ -1,14 +1,17 @@
 //! Cells condensed to one row for each variant on each scene.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use manylights_metrics::{Errors, METRICS};
 
-use crate::cell::{Cell, Comparison, Done, Outcome};
+use crate::bias::{self, Bias};
+use crate::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
+use crate::error::Failure;
 use crate::experiment::Experiment;
 use crate::plan::Turn;
 use crate::session::SceneCells;
-use crate::statistics::{Quartiles, median, quartiles};
+use crate::statistics::{Quartiles, median, paired_difference, quartiles};
 
 /// A scene of the answer.
 pub(crate) struct SceneAnswer {
@@ -40,14 +43,24 @@ pub(crate) enum RowResult {
 pub(crate) struct Medians {
     /// Of the work, over all runs.
     pub(crate) seconds: Quartiles,
+    /// Timed runs.
+    pub(crate) runs: usize,
     /// Of the preparation.
     pub(crate) prepare_seconds: f64,
+    /// Value of the method's cost parameter.
+    pub(crate) amount: u64,
     /// What the method counted for the first seed.
     pub(crate) counters: BTreeMap<String, u64>,
     /// Key of the cell whose picture stands for the row: the first seed's.
     pub(crate) key: String,
     /// By visibility of the reference; medians over seeds.
     pub(crate) errors: BTreeMap<String, Comparison>,
+    /// RMSE of sRGB values of each seed, by visibility of the reference.
+    pub(crate) seed_rmse: BTreeMap<String, Vec<f64>>,
+    /// By visibility of the reference, where there are two seeds or more.
+    pub(crate) bias: BTreeMap<String, Bias>,
+    /// The way to the picture: medians of time, errors of the first seed.
+    pub(crate) checkpoints: Vec<Checkpoint>,
 }
 
 impl Row {
@@ -61,16 +74,35 @@ impl Row {
 }
 
 impl SceneAnswer {
-    /// Condenses the cells of a scene.
-    pub(crate) fn new(experiment: &Experiment, scene: &SceneCells) -> Self {
-        let rows = (0..experiment.variants.len())
-            .map(|variant| {
-                let cells: Vec<_> =
-                    scene.cells.iter().filter(|(turn, _)| turn.variant == variant).collect();
-                Row { variant, result: result(&cells) }
-            })
-            .collect();
-        Self { scene: scene.scene.clone(), rows }
+    /// Condenses the cells of a scene; the pictures are in `out`.
+    ///
+    /// # Errors
+    /// One line where a picture cannot be read.
+    pub(crate) fn new(
+        experiment: &Experiment,
+        scene: &SceneCells,
+        out: &Path,
+    ) -> Result<Self, Failure> {
+        let row = |variant| {
+            let cells: Vec<_> =
+                scene.cells.iter().filter(|(turn, _)| turn.variant == variant).collect();
+            let mut result = result(&cells);
+            if let RowResult::Done(medians) = &mut result {
+                medians.bias = bias::of_cells(&cells, scene, out)?;
+            }
+            Ok::<_, Failure>(Row { variant, result })
+        };
+        let rows = (0..experiment.variants.len()).map(row).collect::<Result<_, _>>()?;
+        Ok(Self { scene: scene.scene.clone(), rows })
+    }
+
+    /// Whether the RMSE of a row differs from that of another by more than chance, seed by seed;
+    /// `None` where there are too few seeds to tell.
+    pub(crate) fn differs(&self, row: usize, other: usize, reference: &str) -> Option<bool> {
+        let seeds = |row: usize| self.rows[row].medians()?.seed_rmse.get(reference);
+        let pairs: Vec<_> =
+            seeds(row)?.iter().copied().zip(seeds(other)?.iter().copied()).collect();
+        paired_difference(&pairs).map(|(mean, half)| mean.abs() > half)
     }
 
     /// Noise of a reference as (radiance, sRGB); `None` where nothing was compared with it.
@@ -130,14 +162,33 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
     // Repetitions of a seed have the same picture: they are not independent errors.
     let pictures: Vec<&Done> =
         done.iter().filter(|(turn, ..)| turn.repetition == 0).map(|(.., done)| *done).collect();
+    let rmse = |reference: &String| {
+        let seeds =
+            pictures.iter().filter_map(|done| Some(done.errors.get(reference)?.display.rmse));
+        (reference.clone(), seeds.collect())
+    };
     let prepare = median(done.iter().map(|(_, _, done)| done.prepare_seconds));
     RowResult::Done(Box::new(Medians {
         seconds,
+        runs: done.len(),
         prepare_seconds: prepare.expect("there is a first"),
+        amount: first.2.amount,
+        seed_rmse: first.2.errors.keys().map(rmse).collect(),
+        bias: BTreeMap::new(),
+        checkpoints: checkpoints(&done.iter().map(|(.., done)| *done).collect::<Vec<_>>()),
         counters: first.2.counters.clone(),
         key: first.1.key.clone(),
         errors: first.2.errors.keys().map(|r| (r.clone(), median_errors(&pictures, r))).collect(),
     }))
+}
+
+/// The first run's, at the median times of all runs.
+fn checkpoints(runs: &[&Done]) -> Vec<Checkpoint> {
+    let at = |(index, checkpoint): (usize, &Checkpoint)| {
+        let times = runs.iter().filter_map(|done| Some(done.checkpoints.get(index)?.step_seconds));
+        Some(Checkpoint { step_seconds: median(times)?, ..checkpoint.clone() })
+    };
+    runs[0].checkpoints.iter().enumerate().filter_map(at).collect()
 }
 
 fn median_errors(pictures: &[&Done], reference: &str) -> Comparison {
@@ -188,8 +239,18 @@ mod tests {
         let seconds = Quartiles { lower: 1.0, median: 1.0, upper: 1.0 };
         let errors = BTreeMap::from([("traced".to_owned(), comparison)]);
         let counters = BTreeMap::new();
-        let medians =
-            Medians { seconds, prepare_seconds: 0.0, counters, key: String::new(), errors };
+        let medians = Medians {
+            seconds,
+            runs: 1,
+            prepare_seconds: 0.0,
+            amount: 1,
+            counters,
+            key: String::new(),
+            errors,
+            seed_rmse: BTreeMap::from([("traced".to_owned(), vec![rmse, rmse + 0.001 * rmse])]),
+            bias: BTreeMap::new(),
+            checkpoints: Vec::new(),
+        };
         Row { variant, result: RowResult::Done(Box::new(medians)) }
     }
 

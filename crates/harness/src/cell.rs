@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use manylights_metrics::{Errors, RadianceImage};
 use serde::{Deserialize, Serialize};
 
+use crate::plan::Budget;
 use crate::provenance::{Provenance, sha256};
 
 /// What decides the picture and its errors, and where its time was taken.
@@ -16,8 +17,10 @@ pub(crate) struct Inputs {
     pub(crate) scene_content: String,
     /// Method.
     pub(crate) method: String,
-    /// All of its parameters.
+    /// Its parameters, without the one that a time budget sets.
     pub(crate) parameters: BTreeMap<String, f64>,
+    /// What it may cost.
+    pub(crate) budget: Budget,
     /// Same seed, same picture.
     pub(crate) seed: u64,
     /// Which of the timed runs.
@@ -77,6 +80,8 @@ pub(crate) enum Outcome {
 /// Times, counts and errors of a picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Done {
+    /// Value of the method's cost parameter: as asked for, or as found for a time budget.
+    pub(crate) amount: u64,
     /// Visibility of the last segment that the method computes, where it is a choice.
     pub(crate) visibility: Option<String>,
     /// Wall clock of what does not depend on the amount of work.
@@ -91,6 +96,19 @@ pub(crate) struct Done {
     pub(crate) image_sha256: String,
     /// By visibility of the reference.
     pub(crate) errors: BTreeMap<String, Comparison>,
+    /// The way to the picture, at doubling amounts, where the method is progressive.
+    pub(crate) checkpoints: Vec<Checkpoint>,
+}
+
+/// A progressive run that was looked at on its way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Checkpoint {
+    /// Work done, in units of the cost parameter.
+    pub(crate) amount: u64,
+    /// Wall clock of the work so far.
+    pub(crate) step_seconds: f64,
+    /// RMSE of sRGB values by visibility of the reference.
+    pub(crate) display_rmse: BTreeMap<String, f64>,
 }
 
 /// Errors against one reference.
@@ -123,6 +141,7 @@ mod tests {
             scene_content: "c".into(),
             method: "m".into(),
             parameters: BTreeMap::from([("n".into(), 4.0)]),
+            budget: Budget::Seconds(0.1),
             seed: 1,
             repetition: 0,
             transport: "all".into(),
@@ -145,7 +164,13 @@ mod tests {
         };
         let comparison =
             Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
+        let checkpoint = Checkpoint {
+            amount: 16,
+            step_seconds: 0.01,
+            display_rmse: BTreeMap::from([("traced".into(), 0.1)]),
+        };
         let done = Done {
+            amount: 32,
             visibility: None,
             prepare_seconds: 0.25,
             step_seconds: 0.1 + 0.2,
@@ -153,6 +178,7 @@ mod tests {
             counters: BTreeMap::from([("rays".into(), u64::MAX)]),
             image_sha256: image_sha256(&RadianceImage::black(1, 1)),
             errors: BTreeMap::from([("traced".into(), comparison)]),
+            checkpoints: vec![checkpoint],
         };
         let provenance = Provenance::here(None);
         let key = inputs().key(&provenance);

@@ -6,9 +6,14 @@
 //! scenes = ["cornell", "scenes/hall.toml"]
 //! transport = "indirect-1"
 //! references = ["traced", "ignored"] # visibility of their last segment; the truth first
+//! errors = [0.02]                    # the time to reach these RMSEs is read off the curves
+//! columns = ["counts", "time", "rmse"] # of the table; all of them where left out
 //! [[methods]]                        # any number; all combinations of the values run
 //! id = "…"
 //! parameters = { samples = [16, 64] }
+//! [[methods]]
+//! id = "…"
+//! budget = "time"                    # the harness sets the method's cost parameter
 //! [baseline]                         # one of those; the first where it is left out
 //! id = "…"
 //! parameters = { samples = 16 }
@@ -17,17 +22,34 @@
 //! reference_samples = 1024
 //! repetitions = 3                    # timed runs of each cell
 //! seeds = [1]
+//! times = [0.1, "baseline"]          # seconds; what methods with a time budget are given
+//! [exposures]                        # where a scene's own is not wanted
+//! cornell = 2.0
+//! [[crops]]                          # shown enlarged, the same for all methods
+//! scene = "cornell"
+//! rectangle = [0.5, 0.5, 0.25, 0.25] # left, top, width, height in parts of the picture
+//! [[published]]                      # a number of a paper, set beside ours
+//! source = "…"
+//! scene = "cornell"
+//! method = { id = "…", parameters = { samples = 64 } }
+//! reference = "traced"
+//! metric = "rmse"                    # of sRGB values
+//! value = 0.01
 //! ```
 //!
-//! A curve runs along the first parameter, in the method's own order, that has a list of values; the
-//! others tell curves apart.
+//! A curve runs along the first parameter, in the method's own order, that has a list of values,
+//! else along the method's cost parameter; the others tell curves apart.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use manylights_method::{Transport, Visibility};
 use serde::Deserialize;
 
-use crate::plan::Variant;
+use crate::columns::Column;
+use crate::crops::Crop;
+use crate::plan::{Budget, Variant};
+use crate::published::{self, Published};
 use crate::sweep::Entry;
 use crate::{names, settings};
 
@@ -54,6 +76,16 @@ pub(crate) struct Experiment {
     pub(crate) variants: Vec<Variant>,
     /// Index into `variants`: what ratios refer to.
     pub(crate) baseline: usize,
+    /// RMSEs (sRGB) whose times are read off the curves.
+    pub(crate) errors: Vec<f64>,
+    /// Columns of the table.
+    pub(crate) columns: Vec<Column>,
+    /// Exposures by scene, where they are not the scene's.
+    pub(crate) exposures: BTreeMap<String, f32>,
+    /// What sheets and reports show enlarged.
+    pub(crate) crops: Vec<Crop>,
+    /// Numbers of papers.
+    pub(crate) published: Vec<Published>,
     /// Name of the profile.
     pub(crate) profile: &'static str,
     /// Sizes and counts of the profile.
@@ -72,6 +104,17 @@ pub(crate) struct Scale {
     pub(crate) repetitions: u32,
     /// One picture for each.
     pub(crate) seeds: Vec<u64>,
+    /// Of methods with a time budget.
+    #[serde(default)]
+    times: Vec<Time>,
+}
+
+/// A time budget as written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "a time is a number of seconds or \"baseline\"")]
+enum Time {
+    Seconds(f64),
+    Of(String),
 }
 
 #[derive(Deserialize)]
@@ -84,6 +127,15 @@ struct File {
     references: Vec<String>,
     methods: Vec<Entry>,
     baseline: Option<Entry>,
+    #[serde(default)]
+    errors: Vec<f64>,
+    columns: Option<Vec<Column>>,
+    #[serde(default)]
+    exposures: BTreeMap<String, f32>,
+    #[serde(default)]
+    crops: Vec<Crop>,
+    #[serde(default)]
+    published: Vec<published::Entry>,
     profiles: Profiles,
 }
 
@@ -139,21 +191,41 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
         return Err("`scenes`, `methods` and `references` each need at least one entry".into());
     }
     let transport: Transport = file.transport.parse()?;
+    let times = times(&scale.times)?;
     let mut variants = Vec::new();
     for entry in &file.methods {
-        for variant in entry.variants()? {
+        for variant in entry.variants(&times)? {
             if variants.contains(&variant) {
                 return Err(format!("methods: `{}` is listed twice", variant.label()));
             }
             variants.push(variant);
         }
     }
+    let references = references(&file.references, transport)?;
+    if file.errors.iter().any(|error| !(error.is_finite() && *error > 0.0)) {
+        return Err("errors: RMSEs are positive numbers".into());
+    }
+    let exposed = |exposure: &f32| exposure.is_finite() && *exposure > 0.0;
+    if !file.exposures.values().all(exposed) {
+        return Err("exposures: factors are positive numbers".into());
+    }
+    file.crops.iter().try_for_each(Crop::check)?;
+    let published = file
+        .published
+        .iter()
+        .map(|entry| entry.resolve(&variants, &times, &references))
+        .collect::<Result<_, _>>()?;
     Ok(Experiment {
+        errors: file.errors,
+        columns: file.columns.unwrap_or_else(|| Column::ALL.to_vec()),
+        exposures: file.exposures,
+        crops: file.crops,
+        published,
         title: file.title,
         question: file.question,
         scenes: file.scenes,
         transport,
-        references: references(&file.references, transport)?,
+        references,
         baseline: baseline(file.baseline.as_ref(), &variants)?,
         variants,
         profile: name,
@@ -180,6 +252,19 @@ fn check_scale(name: &str, scale: &Scale) -> Result<(), String> {
     Ok(())
 }
 
+fn times(written: &[Time]) -> Result<Vec<Budget>, String> {
+    written
+        .iter()
+        .map(|time| match time {
+            Time::Seconds(seconds) if seconds.is_finite() && *seconds > 0.0 => {
+                Ok(Budget::Seconds(*seconds))
+            }
+            Time::Of(name) if name == "baseline" => Ok(Budget::Baseline),
+            _ => Err("times: write positive numbers of seconds or \"baseline\"".into()),
+        })
+        .collect()
+}
+
 fn references(texts: &[String], transport: Transport) -> Result<Vec<Visibility>, String> {
     let mut references = Vec::new();
     for text in texts {
@@ -202,7 +287,7 @@ pub(crate) fn has_last_segment(transport: Transport) -> bool {
 
 fn baseline(entry: Option<&Entry>, variants: &[Variant]) -> Result<usize, String> {
     let Some(entry) = entry else { return Ok(0) };
-    let wanted = entry.variants().map_err(|reason| format!("baseline: {reason}"))?;
+    let wanted = entry.variants(&[]).map_err(|reason| format!("baseline: {reason}"))?;
     let [wanted] = wanted.as_slice() else {
         return Err("baseline: parameters must be single values".into());
     };
@@ -289,6 +374,18 @@ seeds = [1]
             ("[1, 4, 16]", "\"many\"", "must be a number"),
             ("scenes = [\"cornell\"]", "scenes = []", "at least one entry"),
             ("profiles.quick", "profiles.quik", "did you mean `quick`?"),
+            ("{ samples = [1, 4, 16] }", "{}\nbudget = \"time\"", "no `times`"),
+            ("[1, 4, 16] }", "[1, 4, 16] }\nbudget = \"money\"", "unknown variant `money`"),
+            ("seeds = [1]", "seeds = [1]\ntimes = [0]", "positive numbers of seconds"),
+            ("seeds = [1]", "seeds = [1]\ntimes = [\"noon\"]", "\"baseline\""),
+            ("[baseline]", "[exposures]\ncornell = 0.0\n[baseline]", "positive"),
+            (
+                "[baseline]",
+                "[[crops]]\nscene = \"a\"\nrectangle = [0.9, 0, 0.2, 1]\n[baseline]",
+                "within",
+            ),
+            ("question", "columns = [\"psrn\"]\nquestion", "psnr"),
+            ("question", "errors = [0.0]\nquestion", "positive"),
         ] {
             let reason = refused(from, to);
             assert!(reason.contains(said) && reason.lines().count() == 1, "{reason} / {said}");

@@ -61,6 +61,11 @@ impl Journal {
         self.cells.get(key)
     }
 
+    /// All cells, in the order in which they were first written.
+    pub(crate) fn cells(&self) -> impl DoubleEndedIterator<Item = &Cell> {
+        self.order.iter().map(|key| &self.cells[key])
+    }
+
     /// Adds a finished cell.
     ///
     /// # Errors
@@ -114,6 +119,7 @@ fn line(cell: &Cell) -> String {
 mod tests {
     use super::*;
     use crate::cell::{Inputs, Outcome};
+    use crate::plan::Budget;
     use crate::provenance::Provenance;
 
     fn cell(seed: u64, program: &str) -> Cell {
@@ -123,6 +129,7 @@ mod tests {
             scene_content: "c".into(),
             method: "m".into(),
             parameters: BTreeMap::new(),
+            budget: Budget::Count,
             seed,
             repetition: 0,
             transport: "all".into(),

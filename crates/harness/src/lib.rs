@@ -6,10 +6,14 @@
 //! names a method: [`registry::METHODS`] is the only list.
 
 mod answer;
+mod bias;
 mod cell;
 pub mod cli;
+mod columns;
 mod commands;
+mod crops;
 mod curves;
+mod equal_time;
 mod error;
 mod experiment;
 mod journal;
@@ -21,6 +25,7 @@ mod output;
 mod plan;
 mod progress;
 mod provenance;
+mod published;
 mod reference;
 pub mod registry;
 mod scene_run;
@@ -32,5 +37,6 @@ mod statistics;
 mod style;
 mod sweep;
 mod table;
+mod time_budget;
 
 pub use error::Failure;

@@ -22,6 +22,10 @@ pub(crate) struct Measured {
     pub(crate) counters: BTreeMap<String, u64>,
 }
 
+/// Called after each step with the clock off: how far the run is, the seconds of its work so far, and
+/// the run to look at.
+pub(crate) type Look<'l> = &'l mut dyn FnMut(Progress, f64, &mut dyn Run) -> Result<(), Error>;
+
 /// Prepares, steps to the end and resolves. Where `visibility` is left open, the method gets
 /// [`Visibility::Traced`] if it does not decline it, else [`Visibility::Ignored`].
 ///
@@ -32,7 +36,7 @@ pub(crate) fn measure(
     frame: &Frame<'_>,
     visibility: Option<Visibility>,
     parameters: &Parameters,
-    on_step: &mut dyn FnMut(Progress),
+    look: Look<'_>,
 ) -> Result<Measured, Error> {
     let mut clock = Instant::now();
     let mut prepared = None;
@@ -47,7 +51,7 @@ pub(crate) fn measure(
     }
     let (mut run, transport) = prepared.expect("there is at least one candidate")?;
     let prepare_seconds = clock.elapsed().as_secs_f64();
-    let step_seconds = step_to_the_end(run.as_mut(), on_step)?.as_secs_f64();
+    let step_seconds = step_to_the_end(run.as_mut(), look)?.as_secs_f64();
     let image = run.resolve()?;
     Ok(Measured {
         image,
@@ -63,16 +67,13 @@ pub(crate) fn measure(
     })
 }
 
-fn step_to_the_end(
-    run: &mut dyn Run,
-    on_step: &mut dyn FnMut(Progress),
-) -> Result<Duration, Error> {
+fn step_to_the_end(run: &mut dyn Run, look: Look<'_>) -> Result<Duration, Error> {
     let mut elapsed = Duration::ZERO;
     loop {
         let clock = Instant::now();
         let progress = run.step()?;
         elapsed += clock.elapsed();
-        on_step(progress);
+        look(progress, elapsed.as_secs_f64(), run)?;
         if progress.finished() {
             return Ok(elapsed);
         }

@@ -1,34 +1,63 @@
 //! What an experiment runs, and in which order.
 
 use manylights_method::{Method, Parameters};
+use serde::{Deserialize, Serialize};
+
+use crate::numbers::milliseconds;
+
+/// What a run may cost.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Budget {
+    /// The work that the parameters say.
+    Count,
+    /// Seconds of work. The value of the method's cost parameter is searched for.
+    Seconds(f64),
+    /// The seconds that the experiment's baseline takes on the same scene.
+    Baseline,
+}
 
 /// A method with all its parameters set.
 #[derive(Clone)]
 pub(crate) struct Variant {
     /// From the registry.
     pub(crate) method: &'static dyn Method,
-    /// All of its parameters.
+    /// All of its parameters. Of one with a time budget, the cost parameter is where the search
+    /// starts.
     pub(crate) parameters: Parameters,
-    /// The parameter along which a curve runs: the first one declared that the experiment sweeps.
-    pub(crate) swept: Option<&'static str>,
+    /// The parameter along which a curve runs: the first one declared that the experiment sweeps,
+    /// else the cost parameter.
+    pub(crate) swept: &'static str,
+    /// What it may cost.
+    pub(crate) budget: Budget,
 }
 
 impl Variant {
-    /// Method and the parameters that differ from their defaults or are swept.
+    /// Method and the parameters that differ from their defaults or are swept; the budget.
     pub(crate) fn label(&self) -> String {
-        self.text(|_| true)
+        let budget = match self.budget {
+            Budget::Count => return self.text(|_| true),
+            Budget::Seconds(seconds) => format!(" time={} ms", milliseconds(seconds)),
+            Budget::Baseline => " time=baseline".to_owned(),
+        };
+        self.text(|name| name != self.method.cost_parameter()) + &budget
     }
 
     /// As the label, without the swept parameter: variants that share it form one curve.
     pub(crate) fn series(&self) -> String {
-        self.text(|name| Some(name) != self.swept)
+        self.text(|name| name != self.swept && !self.is_searched(name))
+    }
+
+    /// Whether the value of a parameter is found by the harness.
+    pub(crate) fn is_searched(&self, name: &str) -> bool {
+        self.budget != Budget::Count && name == self.method.cost_parameter()
     }
 
     fn text(&self, wanted: impl Fn(&str) -> bool) -> String {
         let default = Parameters::new(self.method.parameters(), []).expect("nothing to refuse");
         let mut words = vec![self.method.id().to_owned()];
         for ((name, value), (_, usual)) in self.parameters.iter().zip(default.iter()) {
-            if wanted(name) && (value != usual || Some(name) == self.swept) {
+            if wanted(name) && (value != usual || name == self.swept) {
                 words.push(format!("{name}={value}"));
             }
         }
@@ -38,7 +67,9 @@ impl Variant {
 
 impl PartialEq for Variant {
     fn eq(&self, other: &Self) -> bool {
-        self.method.id() == other.method.id() && self.parameters == other.parameters
+        self.method.id() == other.method.id()
+            && self.parameters == other.parameters
+            && self.budget == other.budget
     }
 }
 

@@ -22,7 +22,7 @@ pub(crate) struct SceneReference {
     /// RMSE of radiance that noise alone causes.
     linear_floor: f64,
     /// RMSE of sRGB values that noise alone causes.
-    display_floor: f64,
+    pub(crate) display_floor: f64,
     exposure: f32,
 }
 

@@ -1,12 +1,14 @@
 //! Runs the cells of one scene: warm-up, clock, errors, journal.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use manylights_method::{Error, Processor};
+use manylights_method::{Error, Processor, Run};
+use manylights_metrics::RadianceImage;
 
-use crate::cell::{Cell, Done, Inputs, Outcome, image_sha256};
+use crate::cell::{Cell, Checkpoint, Done, Inputs, Outcome, image_sha256};
 use crate::error::{Failure, one_line};
-use crate::measure::{self, Measured};
+use crate::measure::{self, Look, Measured};
 use crate::plan::{Turn, Variant};
 use crate::progress::Progress;
 use crate::provenance::Provenance;
@@ -24,6 +26,10 @@ pub(crate) struct SceneRun<'s, 'a> {
     pub(crate) content: String,
     /// What the pictures are compared with.
     pub(crate) references: &'s [SceneReference],
+    /// Of each variant, the value of the cost parameter that its time budget was found to allow.
+    pub(crate) amounts: Vec<Option<u64>>,
+    /// Whether any cell was not in the journal.
+    pub(crate) ran: bool,
 }
 
 impl SceneRun<'_, '_> {
@@ -32,7 +38,8 @@ impl SceneRun<'_, '_> {
     /// # Errors
     /// One line where a file cannot be written. A cell that fails is recorded as such.
     pub(crate) fn turns(&mut self, turns: &[Turn]) -> Result<Vec<(Turn, Cell)>, Failure> {
-        let mut progress = Progress::new(&self.stage.scene.name);
+        let scene = self.stage.scene;
+        let mut progress = Progress::new(&scene.name);
         let experiment = self.session.experiment;
         let mut warm = vec![false; experiment.variants.len()];
         let mut cells: Vec<(Turn, Cell)> = Vec::with_capacity(turns.len());
@@ -42,14 +49,17 @@ impl SceneRun<'_, '_> {
             let inputs = self.inputs(variant, turn);
             let provenance = self.provenance(variant).clone();
             let key = inputs.key(&provenance);
+            self.recall_amount(turn.variant, &inputs, &provenance);
             if let Some(cell) = self.finished(&key, turn) {
                 cells.push((turn, cell));
                 continue;
             }
             if !std::mem::replace(&mut warm[turn.variant], true) {
-                self.warm_up(variant, turn);
+                self.warm_up(turn);
+                self.find_amount(turn)?;
             }
-            let outcome = self.outcome(variant, turn, &key, &cells)?;
+            self.ran = true;
+            let outcome = self.outcome(turn, &key, &cells)?;
             let cell = Cell { key, inputs, outcome, provenance };
             self.session.journal.append(&cell)?;
             progress.line(&self.summary(turn, &cell));
@@ -64,7 +74,13 @@ impl SceneRun<'_, '_> {
             scene: self.stage.scene.name.clone(),
             scene_content: self.content.clone(),
             method: variant.method.id().to_owned(),
-            parameters: variant.parameters.iter().map(|(k, v)| (k.to_owned(), v)).collect(),
+            parameters: variant
+                .parameters
+                .iter()
+                .filter(|(name, _)| !variant.is_searched(name))
+                .map(|(name, value)| (name.to_owned(), value))
+                .collect(),
+            budget: variant.budget,
             seed: turn.seed,
             repetition: turn.repetition,
             transport: experiment.transport.to_string(),
@@ -85,15 +101,16 @@ impl SceneRun<'_, '_> {
         }
     }
 
-    /// A cell of the journal that need not run again: it did not fail, and its picture, if it had
-    /// one, is still there.
+    /// A cell of the journal that need not run again: it did not fail, it did the work that its
+    /// variant does now, and its picture, if it had one, is still there.
     fn finished(&self, key: &str, turn: Turn) -> Option<Cell> {
         let cell = self.session.journal.get(key)?;
-        let good = match cell.outcome {
-            Outcome::Done(_) if turn.repetition == 0 => {
-                self.image_path(key).with_extension("exr").exists()
+        let good = match &cell.outcome {
+            Outcome::Done(done) => {
+                self.amounts[turn.variant].is_none_or(|amount| amount == done.amount)
+                    && (turn.repetition > 0 || self.image_path(key).with_extension("exr").exists())
             }
-            Outcome::Done(_) | Outcome::Declined { .. } => true,
+            Outcome::Declined { .. } => true,
             Outcome::Failed { .. } => false,
         };
         good.then(|| cell.clone())
@@ -104,26 +121,56 @@ impl SceneRun<'_, '_> {
     }
 
     /// Drivers compile at the first dispatch: that one is outside the clock.
-    fn warm_up(&self, variant: &Variant, turn: Turn) {
+    fn warm_up(&self, turn: Turn) {
+        let variant = &self.session.experiment.variants[turn.variant];
         if variant.method.processor() == Processor::Gpu {
             // What fails here fails again by the clock, where it is recorded.
-            let _ = self.measure(variant, turn);
+            let _ = self.measure(turn, self.amounts[turn.variant], &mut |_, _, _| Ok(()));
         }
     }
 
-    fn measure(&self, variant: &Variant, turn: Turn) -> Result<Measured, Error> {
-        let frame = self.stage.frame(self.session.experiment.transport, turn.seed);
-        measure::measure(variant.method, &frame, None, &variant.parameters, &mut |_| {})
+    /// One run, with the amount of work that a time budget allows where there is one.
+    pub(crate) fn measure(
+        &self,
+        turn: Turn,
+        amount: Option<u64>,
+        look: Look<'_>,
+    ) -> Result<Measured, Error> {
+        let experiment = self.session.experiment;
+        let Variant { method, parameters, .. } = &experiment.variants[turn.variant];
+        let frame = self.stage.frame(experiment.transport, turn.seed);
+        let set = |amount| parameters.with_count(method.cost_parameter(), amount);
+        let parameters = amount.map_or_else(|| parameters.clone(), set);
+        measure::measure(*method, &frame, None, &parameters, look)
     }
 
-    fn outcome(
-        &self,
-        variant: &Variant,
-        turn: Turn,
-        key: &str,
-        earlier: &[(Turn, Cell)],
-    ) -> Result<Outcome, Failure> {
-        let measured = match self.measure(variant, turn) {
+    /// As [`Self::measure`], looked at whenever the work has doubled, where the method is progressive.
+    fn measure_with_checkpoints(&self, turn: Turn) -> Result<(Measured, Vec<Checkpoint>), Error> {
+        let method = self.session.experiment.variants[turn.variant].method;
+        let mut checkpoints = Vec::new();
+        let mut next = 1;
+        let mut look = |progress: manylights_method::Progress, step_seconds, run: &mut dyn Run| {
+            if method.is_progressive() && progress.done >= next && !progress.finished() {
+                next = 2 * progress.done;
+                let display_rmse = self.display_rmse(&run.resolve()?)?;
+                checkpoints.push(Checkpoint { amount: progress.done, step_seconds, display_rmse });
+            }
+            Ok(())
+        };
+        let measured = self.measure(turn, self.amounts[turn.variant], &mut look)?;
+        Ok((measured, checkpoints))
+    }
+
+    fn display_rmse(&self, image: &RadianceImage) -> Result<BTreeMap<String, f64>, Error> {
+        let rmse = |reference: &SceneReference| {
+            let comparison = reference.compare(image).map_err(|e| Error::Failed(e.to_string()))?;
+            Ok((reference.visibility.to_string(), comparison.display.rmse))
+        };
+        self.references.iter().map(rmse).collect()
+    }
+
+    fn outcome(&self, turn: Turn, key: &str, earlier: &[(Turn, Cell)]) -> Result<Outcome, Failure> {
+        let (measured, checkpoints) = match self.measure_with_checkpoints(turn) {
             Ok(measured) => measured,
             Err(Error::Declined(reason)) => {
                 return Ok(Outcome::Declined { reason: one_line(&reason) });
@@ -133,7 +180,7 @@ impl SceneRun<'_, '_> {
         if turn.repetition == 0 {
             self.write_image(&measured, key)?;
         }
-        Ok(match self.done(measured) {
+        Ok(match self.done(turn, measured, checkpoints) {
             Ok(done) if differs(&done, turn, earlier) => Outcome::Failed {
                 reason: "the picture differs from that of the first repetition".into(),
             },
@@ -154,7 +201,14 @@ impl SceneRun<'_, '_> {
             .map_err(Failure::input)
     }
 
-    fn done(&self, measured: Measured) -> Result<Done, manylights_metrics::Error> {
+    fn done(
+        &self,
+        turn: Turn,
+        measured: Measured,
+        checkpoints: Vec<Checkpoint>,
+    ) -> Result<Done, manylights_metrics::Error> {
+        let Variant { method, parameters, .. } = &self.session.experiment.variants[turn.variant];
+        let asked = || parameters.count(method.cost_parameter());
         let errors = self
             .references
             .iter()
@@ -163,6 +217,8 @@ impl SceneRun<'_, '_> {
             })
             .collect::<Result<_, manylights_metrics::Error>>()?;
         Ok(Done {
+            amount: self.amounts[turn.variant].unwrap_or_else(asked),
+            checkpoints,
             visibility: measure::visibility(measured.transport).map(|v| v.to_string()),
             prepare_seconds: measured.prepare_seconds,
             step_seconds: measured.step_seconds,

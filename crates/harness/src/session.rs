@@ -61,8 +61,17 @@ impl Session<'_> {
         let scale = &experiment.scale;
         let turns = interleaved(experiment.variants.len(), &scale.seeds, scale.repetitions);
         let content = path_tracer::content_hash(scene, stage.camera);
-        let mut run = SceneRun { session: self, stage, content, references: &references };
-        let cells = run.turns(&turns)?;
+        let amounts = vec![None; experiment.variants.len()];
+        let mut run = SceneRun {
+            session: self,
+            stage,
+            content,
+            references: &references,
+            amounts,
+            ran: false,
+        };
+        let mut cells = run.turns(&turns)?;
+        run.correct_times(&mut cells)?;
         Ok(SceneCells { scene: scene.name.clone(), exposure: scene.exposure, references, cells })
     }
 

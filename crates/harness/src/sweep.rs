@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::plan::Variant;
+use crate::plan::{Budget, Variant};
 use crate::{registry, settings};
 
 /// A method of an experiment file, with one value or a list of them for each parameter.
@@ -12,27 +12,58 @@ pub(crate) struct Entry {
     id: String,
     #[serde(default)]
     parameters: toml::Table,
+    #[serde(default)]
+    budget: Kind,
+}
+
+/// What bounds the work of a method.
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    /// The parameters as written.
+    #[default]
+    Count,
+    /// The times of the profile, one after the other.
+    Time,
 }
 
 impl Entry {
-    /// One variant for each combination of the values.
+    /// One variant for each combination of the values; where time is the budget, one for each of
+    /// these and each of `times`.
     ///
     /// # Errors
     /// One line for an unknown method or parameter (the nearest is named) or a value out of range.
-    pub(crate) fn variants(&self) -> Result<Vec<Variant>, String> {
+    pub(crate) fn variants(&self, times: &[Budget]) -> Result<Vec<Variant>, String> {
         let method = registry::method(&self.id)?;
+        let budgets = self.budgets(method.cost_parameter(), times)?;
         let grid = self.grid()?;
         if grid.is_empty() {
             return Err(format!("methods: `{}` has a parameter without values", self.id));
         }
         let is_list = |name: &str| matches!(self.parameters.get(name), Some(toml::Value::Array(_)));
-        let swept = method.parameters().iter().map(|info| info.name).find(|name| is_list(name));
-        grid.iter()
-            .map(|row| {
-                let pairs = row.iter().map(|(key, text)| (*key, text.as_str()));
-                Ok(Variant { method, parameters: settings::parameters(method, pairs)?, swept })
-            })
-            .collect()
+        let names = method.parameters().iter().map(|info| info.name);
+        let swept = names.into_iter().find(|name| is_list(name));
+        let swept = swept.unwrap_or(method.cost_parameter());
+        let variant = |row: &Vec<(&str, String)>, &budget: &Budget| {
+            let pairs = row.iter().map(|(key, text)| (*key, text.as_str()));
+            let parameters = settings::parameters(method, pairs)?;
+            Ok(Variant { method, parameters, swept, budget })
+        };
+        grid.iter().flat_map(|row| budgets.iter().map(move |budget| variant(row, budget))).collect()
+    }
+
+    fn budgets<'b>(&self, cost: &str, times: &'b [Budget]) -> Result<&'b [Budget], String> {
+        match self.budget {
+            Kind::Count => Ok(&[Budget::Count]),
+            Kind::Time if times.is_empty() => {
+                Err(format!("methods: `{}` has a time budget, but the profile no `times`", self.id))
+            }
+            Kind::Time if self.parameters.contains_key(cost) => Err(format!(
+                "methods: `{}` has a time budget, which sets `{cost}`: leave it out",
+                self.id
+            )),
+            Kind::Time => Ok(times),
+        }
     }
 
     /// All combinations of the values, as (key, value) rows.

@@ -96,6 +96,14 @@ pub trait Method: Sync {
     /// What can be set with `--set KEY=VALUE`.
     fn parameters(&self) -> &'static [ParameterInfo];
 
+    /// The parameter, a [`ParameterKind::Count`], that time and accuracy grow with. Where a budget
+    /// names a time, its value is searched for.
+    fn cost_parameter(&self) -> &'static str;
+
+    /// Whether the picture after every step estimates the final one, so that one run gives a whole
+    /// curve of error against time.
+    fn is_progressive(&self) -> bool;
+
     /// Checks that the method can make this picture and sets up what does not depend on the amount
     /// of work: pipelines, acceleration structures.
     ///

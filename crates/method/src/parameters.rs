@@ -66,6 +66,16 @@ impl Parameters {
         Ok(Self { values })
     }
 
+    /// The same values but for one `Count`.
+    ///
+    /// # Panics
+    /// Where the method did not declare `name`.
+    pub fn with_count(&self, name: &str, value: u64) -> Self {
+        let mut changed = self.clone();
+        *changed.values.get_mut(name).expect("a declared parameter") = value as f64;
+        changed
+    }
+
     /// The value of a `Real`.
     ///
     /// # Panics

@@ -43,6 +43,14 @@ impl Method for PathTracer {
         }]
     }
 
+    fn cost_parameter(&self) -> &'static str {
+        "samples"
+    }
+
+    fn is_progressive(&self) -> bool {
+        true
+    }
+
     fn prepare<'a>(
         &self,
         frame: &Frame<'a>,

@@ -52,6 +52,15 @@ impl Method for Vpl {
         params::PARAMETERS
     }
 
+    fn cost_parameter(&self) -> &'static str {
+        "lights"
+    }
+
+    /// Half of the lights is half of the flux.
+    fn is_progressive(&self) -> bool {
+        false
+    }
+
     fn prepare<'a>(
         &self,
         frame: &Frame<'a>,

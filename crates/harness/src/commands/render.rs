@@ -36,7 +36,10 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         &stage.frame(arguments.transport, arguments.seed),
         arguments.visibility,
         &parameters,
-        &mut |at| progress.set(at.done, at.total),
+        &mut |at, _, _| {
+            progress.set(at.done, at.total);
+            Ok(())
+        },
     )?;
     drop(progress);
     let mut facts = vec![

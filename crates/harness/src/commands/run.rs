@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     for scene in &scenes {
         let cells = session.scene(scene)?;
         session.retire(&cells)?;
-        let answer = SceneAnswer::new(&experiment, &cells);
+        let answer = SceneAnswer::new(&experiment, &cells, out)?;
         write_sheet(&experiment, &cells, &answer, out)?;
         answers.push(answer);
     }
@@ -54,7 +54,10 @@ fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec<Scene>, Fa
     let mut names = BTreeSet::new();
     let mut scenes = Vec::with_capacity(experiment.scenes.len());
     for what in &experiment.scenes {
-        let scene = stage::load(what, assets)?;
+        let mut scene = stage::load(what, assets)?;
+        if let Some(&exposure) = experiment.exposures.get(&scene.name) {
+            scene.exposure = exposure;
+        }
         if !names.insert(scene.name.clone()) {
             return Err(Failure::input(format!("scenes: `{}` is listed twice", scene.name)));
         }

@@ -1,0 +1,64 @@
+//! The columns of a table.
+
+use serde::Deserialize;
+
+/// A column beside rank and method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Column {
+    /// What the method counted.
+    Counts,
+    /// Median time of the work.
+    Time,
+    /// First and third quartile of the time.
+    Quartiles,
+    /// Time as a multiple of the baseline's.
+    TimeRatio,
+    /// RMSE of sRGB values.
+    Rmse,
+    /// RMSE as a multiple of the baseline's.
+    RmseRatio,
+    /// Root of the squared bias, of sRGB values.
+    Bias,
+    /// Standard deviation over seeds, of sRGB values.
+    Deviation,
+    /// PSNR of sRGB values.
+    Psnr,
+    /// SSIM of sRGB values.
+    Ssim,
+    /// RMSE of radiance.
+    RmseLinear,
+}
+
+impl Column {
+    /// In the order in which they stand where an experiment names none.
+    pub(crate) const ALL: [Self; 11] = [
+        Self::Counts,
+        Self::Time,
+        Self::Quartiles,
+        Self::TimeRatio,
+        Self::Rmse,
+        Self::RmseRatio,
+        Self::Bias,
+        Self::Deviation,
+        Self::Psnr,
+        Self::Ssim,
+        Self::RmseLinear,
+    ];
+
+    /// Heading.
+    pub(crate) fn title(self) -> &'static str {
+        match self {
+            Self::Counts => "counts",
+            Self::Time => "time ms",
+            Self::Quartiles => "quartiles",
+            Self::TimeRatio | Self::RmseRatio => "÷ base",
+            Self::Rmse => "RMSE",
+            Self::Bias => "bias",
+            Self::Deviation => "deviation",
+            Self::Psnr => "PSNR dB",
+            Self::Ssim => "SSIM",
+            Self::RmseLinear => "RMSE linear",
+        }
+    }
+}

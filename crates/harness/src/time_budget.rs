@@ -1,0 +1,137 @@
+//! Time budgets: how much work each variant may do on a scene.
+
+use manylights_method::{Error, ParameterKind};
+
+use crate::cell::{Cell, Inputs, Outcome};
+use crate::equal_time::{self, distance};
+use crate::error::Failure;
+use crate::plan::{Budget, Turn};
+use crate::provenance::Provenance;
+use crate::scene_run::SceneRun;
+use crate::statistics::median;
+
+/// A median time this far from its budget, relatively, is corrected once more and marked in tables.
+pub(crate) const TOLERANCE: f64 = 0.05;
+/// Corrections of one scene at most: the machine's own noise may exceed [`TOLERANCE`].
+const CORRECTIONS: usize = 3;
+/// Runs that a time is the median of, once it is near its target.
+const RUNS: usize = 3;
+
+impl SceneRun<'_, '_> {
+    /// Takes the amount of a variant from the last finished cell that differs in seed and repetition
+    /// alone, so that a run that goes on does the same work.
+    pub(crate) fn recall_amount(
+        &mut self,
+        variant: usize,
+        inputs: &Inputs,
+        provenance: &Provenance,
+    ) {
+        if inputs.budget == Budget::Count || self.amounts[variant].is_some() {
+            return;
+        }
+        let alike = |cell: &&Cell| {
+            let Inputs { seed, repetition, .. } = cell.inputs;
+            cell.provenance == *provenance
+                && Inputs { seed, repetition, ..inputs.clone() } == cell.inputs
+        };
+        self.amounts[variant] =
+            self.session.journal.cells().rev().filter(alike).find_map(|cell| match &cell.outcome {
+                Outcome::Done(done) => Some(done.amount),
+                _ => None,
+            });
+    }
+
+    /// Searches the amount of a variant with a time budget that has none yet. What the method
+    /// declines or fails at is left to the run by the clock, where it is recorded.
+    ///
+    /// # Errors
+    /// One line where the baseline that sets the time cannot run.
+    pub(crate) fn find_amount(&mut self, turn: Turn) -> Result<(), Failure> {
+        let experiment = self.session.experiment;
+        let variant = &experiment.variants[turn.variant];
+        let target = match variant.budget {
+            Budget::Count => return Ok(()),
+            _ if self.amounts[turn.variant].is_some() => return Ok(()),
+            Budget::Seconds(seconds) => seconds,
+            Budget::Baseline => {
+                let baseline = Turn { variant: experiment.baseline, ..turn };
+                self.seconds(baseline, None).map_err(|error| {
+                    Failure::Failed(format!("the baseline, which sets the time budget: {error}"))
+                })?
+            }
+        };
+        let cost = variant.method.cost_parameter();
+        let declared = variant.method.parameters().iter().find(|info| info.name == cost);
+        let Some(ParameterKind::Count { min, max, .. }) = declared.map(|info| info.kind) else {
+            unreachable!("the registry's tests hold cost parameters to be counts");
+        };
+        let start = variant.parameters.count(cost);
+        let measured = |amount| self.time(turn, amount, target);
+        self.amounts[turn.variant] = equal_time::search(target, min..=max, start, measured).ok();
+        Ok(())
+    }
+
+    /// One run where the time is far from `target`, the median of some where it is near.
+    fn time(&self, turn: Turn, amount: u64, target: f64) -> Result<f64, Error> {
+        let first = self.measure(turn, Some(amount), &mut |_, _, _| Ok(()))?.step_seconds;
+        if distance(first, target) > 0.5 { Ok(first) } else { self.seconds(turn, Some(amount)) }
+    }
+
+    fn seconds(&self, turn: Turn, amount: Option<u64>) -> Result<f64, Error> {
+        let runs = (0..RUNS).map(|_| self.measure(turn, amount, &mut |_, _, _| Ok(())));
+        let seconds: Vec<f64> =
+            runs.map(|run| Ok(run?.step_seconds)).collect::<Result<_, Error>>()?;
+        Ok(median(seconds).expect("there are some"))
+    }
+
+    /// Runs those variants again, with another amount, whose median time missed its budget: what was
+    /// searched in one minute may not hold in the next.
+    ///
+    /// # Errors
+    /// Those of [`Self::turns`].
+    pub(crate) fn correct_times(&mut self, cells: &mut [(Turn, Cell)]) -> Result<(), Failure> {
+        // A finished run repeats nothing.
+        let corrections = if self.ran { CORRECTIONS } else { 0 };
+        for _ in 0..corrections {
+            let variants = 0..self.amounts.len();
+            let missed: Vec<_> = variants
+                .filter_map(|variant| Some((variant, self.missed(variant, cells)?)))
+                .collect();
+            if missed.is_empty() {
+                break;
+            }
+            for &(variant, amount) in &missed {
+                self.amounts[variant] = Some(amount);
+            }
+            let again = |turn: &Turn| missed.iter().any(|&(variant, _)| variant == turn.variant);
+            let turns: Vec<Turn> = cells.iter().map(|(turn, _)| *turn).filter(again).collect();
+            let mut fresh = self.turns(&turns)?.into_iter();
+            for slot in cells.iter_mut().filter(|(turn, _)| again(turn)) {
+                *slot = fresh.next().expect("one cell for each turn");
+            }
+        }
+        Ok(())
+    }
+
+    /// A better amount for a variant whose median time missed its budget, where there is one.
+    fn missed(&self, variant: usize, cells: &[(Turn, Cell)]) -> Option<u64> {
+        let target = match self.session.experiment.variants[variant].budget {
+            Budget::Count => return None,
+            Budget::Seconds(seconds) => seconds,
+            Budget::Baseline => median_seconds(self.session.experiment.baseline, cells)?,
+        };
+        let seconds = median_seconds(variant, cells)?;
+        let amount = self.amounts[variant]?;
+        let better = ((amount as f64 * target / seconds).round() as u64).max(1);
+        (distance(seconds, target) > TOLERANCE && better != amount).then_some(better)
+    }
+}
+
+fn median_seconds(variant: usize, cells: &[(Turn, Cell)]) -> Option<f64> {
+    median(cells.iter().filter(|(turn, _)| turn.variant == variant).filter_map(|(_, cell)| {
+        match &cell.outcome {
+            Outcome::Done(done) => Some(done.step_seconds),
+            _ => None,
+        }
+    }))
+}
