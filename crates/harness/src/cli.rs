@@ -33,6 +33,8 @@ enum Command {
     Metrics(MetricsArguments),
     /// Runs an experiment and writes tables, curves and pictures
     Run(RunArguments),
+    /// Writes report.html, a page that needs no network, from the results in a folder
+    Report(ReportArguments),
 }
 
 /// What `list` shows.
@@ -127,6 +129,13 @@ pub(crate) struct RunArguments {
     pub(crate) machine: Machine,
 }
 
+#[derive(Args)]
+pub(crate) struct ReportArguments {
+    /// Folder of the results, with the experiment file that `run` put there
+    #[arg(value_name = "DIR")]
+    pub(crate) directory: PathBuf,
+}
+
 /// Runs the program. Help and version go to standard output, as everywhere.
 ///
 /// # Errors
@@ -147,13 +156,15 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure>
         Command::Render(arguments) => commands::render::run(&arguments),
         Command::Metrics(arguments) => commands::metrics::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Report(arguments) => commands::report::run(&arguments),
     }
 }
 
 /// clap explains in paragraphs; the contract wants a line. Usage is left to `--help`.
 fn mend(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: list, render, metrics or run; see manylights --help".into();
+        return "a command is missing: list, render, metrics, run or report; see manylights --help"
+            .into();
     }
     let text = error.to_string();
     let explanation = text.split("\n\nUsage:").next().unwrap_or(&text);

@@ -2,6 +2,15 @@
 
 use serde::Deserialize;
 
+/// Frames of the crops of a scene, in turn: three of the palette of Okabe and Ito (2008) that are seen
+/// on dark and on bright pictures.
+const FRAMES: [[u8; 3]; 3] = [[230, 159, 0], [86, 180, 233], [0, 158, 115]];
+
+/// Colour of the frame of the n-th crop of a scene, sRGB.
+pub(crate) fn frame(nth: usize) -> [u8; 3] {
+    FRAMES[nth % FRAMES.len()]
+}
+
 /// A rectangle of the pictures of a scene, the same for all methods.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,5 +1,7 @@
 //! What an experiment runs, and in which order.
 
+use std::collections::BTreeMap;
+
 use manylights_method::{Method, Parameters};
 use serde::{Deserialize, Serialize};
 
@@ -51,6 +53,12 @@ impl Variant {
     /// Whether the value of a parameter is found by the harness.
     pub(crate) fn is_searched(&self, name: &str) -> bool {
         self.budget != Budget::Count && name == self.method.cost_parameter()
+    }
+
+    /// Values of the parameters but for one that the harness finds: what decides a picture.
+    pub(crate) fn given(&self) -> BTreeMap<String, f64> {
+        let given = self.parameters.iter().filter(|(name, _)| !self.is_searched(name));
+        given.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     fn text(&self, wanted: impl Fn(&str) -> bool) -> String {

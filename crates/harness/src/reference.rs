@@ -1,13 +1,13 @@
 //! References of a scene, with the noise that is left in them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use manylights_method::Visibility;
 use manylights_metrics::{RadianceImage, compare_display, compare_linear};
 use manylights_path_tracer as path_tracer;
 use manylights_scene::{Camera, Scene};
 
-use crate::cell::Comparison;
+use crate::cell::{Comparison, Inputs};
 use crate::error::Failure;
 use crate::progress::Progress;
 
@@ -64,6 +64,37 @@ impl SceneReference {
         })
     }
 
+    /// Keeps the picture beside those of the cells of `out`, for reports.
+    ///
+    /// # Errors
+    /// One line where the file cannot be written.
+    pub(crate) fn write(&self, scene: &str, out: &Path) -> Result<(), Failure> {
+        let samples = ("manylights.samples".to_owned(), self.samples.to_string());
+        let path = path(out, scene, self.visibility);
+        self.image.write_exr(&path, &[samples]).map_err(Failure::input)
+    }
+
+    /// What [`Self::write`] kept, with the noise that a cell of these inputs was told of.
+    ///
+    /// # Errors
+    /// One line where the picture cannot be read.
+    pub(crate) fn read(
+        visibility: Visibility,
+        inputs: &Inputs,
+        comparison: Option<&Comparison>,
+        out: &Path,
+    ) -> Result<Self, Failure> {
+        let path = path(out, &inputs.scene, visibility);
+        Ok(Self {
+            visibility,
+            image: RadianceImage::read_exr(&path).map_err(Failure::input)?,
+            samples: inputs.references.get(&visibility.to_string()).copied().unwrap_or(0),
+            linear_floor: comparison.map_or(0.0, |comparison| comparison.linear_floor),
+            display_floor: comparison.map_or(0.0, |comparison| comparison.display_floor),
+            exposure: inputs.exposure,
+        })
+    }
+
     /// Errors of a picture against this reference.
     ///
     /// # Errors
@@ -79,6 +110,11 @@ impl SceneReference {
             display_floor: self.display_floor,
         })
     }
+}
+
+/// The picture of a reference among those of the cells.
+fn path(out: &Path, scene: &str, visibility: Visibility) -> PathBuf {
+    out.join("cells").join(format!("{scene}-reference-{visibility}.exr"))
 }
 
 fn at_scene(scene: &Scene, error: impl std::fmt::Display) -> Failure {

@@ -74,12 +74,7 @@ impl SceneRun<'_, '_> {
             scene: self.stage.scene.name.clone(),
             scene_content: self.content.clone(),
             method: variant.method.id().to_owned(),
-            parameters: variant
-                .parameters
-                .iter()
-                .filter(|(name, _)| !variant.is_searched(name))
-                .map(|(name, value)| (name.to_owned(), value))
-                .collect(),
+            parameters: variant.given(),
             budget: variant.budget,
             seed: turn.seed,
             repetition: turn.repetition,

@@ -83,7 +83,7 @@ impl Session<'_> {
         let current: Vec<&Cell> = scene.cells.iter().map(|(_, cell)| cell).collect();
         for key in self.journal.retire(&current)? {
             let path = image_path(self.out, &scene.scene, &key);
-            for extension in ["exr", "png"] {
+            for extension in ["exr", "png", "layers.exr"] {
                 // Repetitions have no picture, and one that stays harms nobody.
                 let _ = std::fs::remove_file(path.with_extension(extension));
             }

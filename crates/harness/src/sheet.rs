@@ -1,13 +1,16 @@
-//! `sheet-SCENE.png`: references, methods and their errors side by side.
+//! `sheet-SCENE.png`: references, methods, crops and errors side by side.
 
 use std::io::Cursor;
 use std::path::Path;
 
+use image::imageops::{self, FilterType};
 use image::{ImageFormat, Rgb, RgbImage};
 use manylights_metrics::{RadianceImage, false_color};
 
 use crate::answer::SceneAnswer;
+use crate::crops::frame;
 use crate::error::Failure;
+use crate::error_scale::error_scale;
 use crate::experiment::Experiment;
 use crate::lettering::{self, LINE};
 use crate::numbers::short;
@@ -17,8 +20,13 @@ use crate::session::{SceneCells, image_path};
 const GAP: u32 = 10;
 /// Small pictures are enlarged by whole factors until captions fit.
 const MIN_TILE: u32 = 400;
+/// Pixels of the line around a crop.
+const FRAME: u32 = 3;
 const INK: Rgb<u8> = Rgb([30, 30, 30]);
 const PAPER: Rgb<u8> = Rgb([255, 255, 255]);
+
+/// Left, top, width, height in pixels.
+type Rectangle = [u32; 4];
 
 /// A picture with two lines of caption above it.
 struct Tile {
@@ -35,7 +43,9 @@ struct Entry {
 }
 
 /// The sheet of a scene: the methods in the first row, each at the last of its settings in the
-/// experiment; then, for each reference, a row that starts with it and shows the errors against it.
+/// experiment; then, for each crop, a row of the same rectangle of the first reference and of all
+/// methods, framed as in the full pictures; then, for each reference, a row that starts with it and
+/// shows the errors against it.
 ///
 /// # Errors
 /// One line where the picture of a cell cannot be read.
@@ -46,8 +56,17 @@ pub(crate) fn png(
     out: &Path,
 ) -> Result<Vec<u8>, Failure> {
     let entries = entries(experiment, cells, answer, out)?;
-    let scale = scale(&entries, &cells.references);
-    let mut rows = vec![pictures(cells, &entries, scale)];
+    let images: Vec<_> = entries.iter().map(|entry| &entry.image).collect();
+    let scale = error_scale(&images, &cells.references);
+    let RadianceImage { width, height, .. } = cells.references[0].image;
+    let crops: Vec<Rectangle> = experiment
+        .crops
+        .iter()
+        .filter(|crop| crop.scene == cells.scene)
+        .map(|crop| crop.pixels([width, height]))
+        .collect();
+    let mut rows = vec![pictures(cells, &entries, &crops, scale)];
+    rows.extend((0..crops.len()).map(|nth| enlarged_crops(cells, &entries, &crops, nth)));
     for (index, reference) in cells.references.iter().enumerate() {
         rows.push(errors(cells, &entries, index, reference, scale));
     }
@@ -81,21 +100,64 @@ fn entries(
 }
 
 fn shown(image: &RadianceImage, exposure: f32) -> RgbImage {
-    enlarged(&image.display(exposure))
+    to_bytes(&image.display(exposure), zoom(image.width))
 }
 
 /// The scale of the errors, then the methods.
-fn pictures(cells: &SceneCells, entries: &[Entry], scale: f32) -> Vec<Tile> {
+fn pictures(cells: &SceneCells, entries: &[Entry], crops: &[Rectangle], scale: f32) -> Vec<Tile> {
     let RadianceImage { width, height, .. } = cells.references[0].image;
     let key = Tile {
         caption: ["mean |error| of R, G, B".into(), format!("0 .. {scale} W/m2/sr")],
         picture: shown(&bar(width, height, scale), 1.0),
     };
-    let methods = entries.iter().map(|entry| Tile {
-        caption: wrapped(&entry.label),
-        picture: shown(&entry.image, cells.exposure),
+    let methods = entries.iter().map(|entry| {
+        let mut picture = shown(&entry.image, cells.exposure);
+        let zoom = zoom(width);
+        for (nth, rectangle) in crops.iter().enumerate() {
+            draw_frame(&mut picture, rectangle.map(|side| side * zoom), nth);
+        }
+        Tile { caption: wrapped(&entry.label), picture }
     });
     std::iter::once(key).chain(methods).collect()
+}
+
+/// The same rectangle of the first reference and of all methods, as wide as a full picture.
+fn enlarged_crops(
+    cells: &SceneCells,
+    entries: &[Entry],
+    crops: &[Rectangle],
+    nth: usize,
+) -> Vec<Tile> {
+    let [left, top, width, height] = crops[nth];
+    let truth = &cells.references[0];
+    let tile = |image: &RadianceImage, second: String| {
+        let full = to_bytes(&image.display(cells.exposure), 1);
+        let part = imageops::crop_imm(&full, left, top, width, height).to_image();
+        let wide = image.width * zoom(image.width);
+        let high = (u64::from(wide) * u64::from(height) / u64::from(width)).max(1) as u32;
+        let mut picture = imageops::resize(&part, wide, high, FilterType::Nearest);
+        draw_frame(&mut picture, [0, 0, wide, high], nth);
+        Tile { caption: [format!("crop {}", nth + 1), second], picture }
+    };
+    let reference = tile(&truth.image, format!("REFERENCE {}", truth.visibility));
+    let methods = entries.iter().map(|entry| tile(&entry.image, entry.label.clone()));
+    std::iter::once(reference).chain(methods).collect()
+}
+
+/// Draws the outline of a rectangle within it.
+fn draw_frame(picture: &mut RgbImage, [left, top, width, height]: Rectangle, nth: usize) {
+    let ink = Rgb(frame(nth));
+    for inset in 0..FRAME.min(width / 2).min(height / 2) {
+        let (right, bottom) = (left + width - 1 - inset, top + height - 1 - inset);
+        for x in left + inset..=right {
+            picture.put_pixel(x, top + inset, ink);
+            picture.put_pixel(x, bottom, ink);
+        }
+        for y in top + inset..=bottom {
+            picture.put_pixel(left + inset, y, ink);
+            picture.put_pixel(right, y, ink);
+        }
+    }
 }
 
 /// A reference, then the errors of the methods against it.
@@ -137,36 +199,12 @@ fn bar(width: u32, height: u32, scale: f32) -> RadianceImage {
     RadianceImage { width, height, pixels }
 }
 
-/// One scale for the whole sheet: the 99th percentile of the mean absolute error over the components,
-/// rounded up to 1, 2 or 5 times a power of ten, so that fireflies do not hide the rest.
-fn scale(entries: &[Entry], references: &[SceneReference]) -> f32 {
-    let mut errors: Vec<f32> = Vec::new();
-    for entry in entries {
-        for reference in references {
-            let pairs = entry.image.pixels.iter().zip(&reference.image.pixels);
-            errors
-                .extend(pairs.map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f32>() / 3.0));
-        }
-    }
-    errors.sort_by(f32::total_cmp);
-    let percentile = errors.get(errors.len() * 99 / 100).copied().unwrap_or(0.0);
-    round_up(if percentile > 0.0 { percentile } else { 1.0 })
-}
-
-fn round_up(value: f32) -> f32 {
-    // In f64, so that the nearest f32 is that of the decimal number and prints as such.
-    let power = 10_f64.powf(f64::from(value).log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| (step * power) as f32);
-    steps.into_iter().find(|&step| step >= value).unwrap_or(value)
-}
-
 fn zoom(width: u32) -> u32 {
     MIN_TILE.div_ceil(width)
 }
 
 /// Bytes of a display-referred picture, each pixel repeated.
-fn enlarged(shown: &RadianceImage) -> RgbImage {
-    let zoom = zoom(shown.width);
+fn to_bytes(shown: &RadianceImage, zoom: u32) -> RgbImage {
     RgbImage::from_fn(shown.width * zoom, shown.height * zoom, |x, y| {
         let pixel = shown.pixels[(y / zoom * shown.width + x / zoom) as usize];
         Rgb(pixel.map(|value| (255.0 * value).round() as u8))
@@ -183,20 +221,23 @@ fn wrapped(label: &str) -> [String; 2] {
 
 fn compose(rows: &[Vec<Tile>]) -> RgbImage {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0) as u32;
-    let (width, height) = rows[0][0].picture.dimensions();
-    let (step_x, step_y) = (width + GAP, height + 2 * LINE + GAP);
-    let size = (columns * step_x + GAP, rows.len() as u32 * step_y + GAP);
+    let width = rows[0][0].picture.width();
+    let heights: Vec<u32> =
+        rows.iter().map(|row| row[0].picture.height() + 2 * LINE + GAP).collect();
+    let size = (columns * (width + GAP) + GAP, heights.iter().sum::<u32>() + GAP);
     let mut sheet = RgbImage::from_pixel(size.0, size.1, PAPER);
-    for (row, tiles) in (0..).zip(rows) {
+    let mut y = GAP;
+    for (tiles, height) in rows.iter().zip(heights) {
         for (column, tile) in (0..).zip(tiles) {
-            let (x, y) = (GAP + column * step_x, GAP + row * step_y);
+            let x = GAP + column * (width + GAP);
             for (line, text) in (0..).zip(&tile.caption) {
                 let end = text.char_indices().nth(lettering::fitting(width));
                 let text = &text[..end.map_or(text.len(), |(at, _)| at)];
                 lettering::write(&mut sheet, x, y + line * LINE, text, INK);
             }
-            image::imageops::replace(&mut sheet, &tile.picture, x.into(), (y + 2 * LINE).into());
+            imageops::replace(&mut sheet, &tile.picture, x.into(), (y + 2 * LINE).into());
         }
+        y += height;
     }
     sheet
 }
@@ -206,11 +247,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn scales_are_round() {
-        for (value, round) in
-            [(0.11, "0.2"), (0.2, "0.2"), (0.003, "0.005"), (0.07, "0.1"), (3.0, "5")]
+    fn frames_stay_within_their_rectangle() {
+        for (rectangle, inked) in
+            [([2, 3, 10, 9], 90 - 4 * 3), ([0, 0, 1, 1], 0), ([1, 1, 2, 5], 10)]
         {
-            assert_eq!(round_up(value).to_string(), round);
+            let mut picture = RgbImage::new(16, 16);
+            draw_frame(&mut picture, rectangle, 0);
+            let ink = picture.pixels().filter(|pixel| pixel.0 == frame(0)).count();
+            assert_eq!(ink, inked, "{rectangle:?}");
         }
     }
 }

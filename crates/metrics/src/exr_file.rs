@@ -59,14 +59,7 @@ impl RadianceImage {
     /// than 255 bytes or taken by OpenEXR.
     pub fn write_exr(&self, path: &Path, attributes: &[(String, String)]) -> Result<(), Error> {
         self.check_shape()?;
-        let mut layer_attributes = LayerAttributes::default();
-        for (name, value) in attributes {
-            if name.contains('\0') {
-                return Err(Error::write(path, format!("attribute name {name:?} holds a NUL")));
-            }
-            let value = AttributeValue::Text(Text::from_slice_unchecked(value.as_bytes()));
-            layer_attributes.other.insert(Text::from_slice_unchecked(name.as_bytes()), value);
-        }
+        let layer_attributes = layer_attributes(path, attributes)?;
         let size = Vec2(self.width as usize, self.height as usize);
         let channels = SpecificChannels::rgb(|Vec2(x, y)| {
             let [r, g, b] = self.pixels[y * size.width() + x];
@@ -77,6 +70,22 @@ impl RadianceImage {
             Image::from_layer(layer).write().to_buffered(writer).map_err(|error| error.to_string())
         })
     }
+}
+
+/// The attributes of a layer, all of them text.
+pub(crate) fn layer_attributes(
+    path: &Path,
+    attributes: &[(String, String)],
+) -> Result<LayerAttributes, Error> {
+    let mut layer_attributes = LayerAttributes::default();
+    for (name, value) in attributes {
+        if name.contains('\0') {
+            return Err(Error::write(path, format!("attribute name {name:?} holds a NUL")));
+        }
+        let value = AttributeValue::Text(Text::from_slice_unchecked(value.as_bytes()));
+        layer_attributes.other.insert(Text::from_slice_unchecked(name.as_bytes()), value);
+    }
+    Ok(layer_attributes)
 }
 
 fn check_channels(headers: &[Header]) -> exr::error::Result<()> {

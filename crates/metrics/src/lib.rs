@@ -8,6 +8,7 @@
 mod compare;
 mod error;
 mod exr_file;
+mod exr_layers;
 mod false_color;
 mod file;
 mod image;
@@ -17,5 +18,6 @@ mod ssim;
 
 pub use compare::{Errors, METRICS, MetricInfo, compare, compare_display, compare_linear};
 pub use error::Error;
+pub use exr_layers::write_exr_layers;
 pub use false_color::false_color;
 pub use image::RadianceImage;

@@ -10,7 +10,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer,
     LayerAttributes, LineOrder, Vec2, WritableImage, f16,
 };
-use manylights_metrics::{Error, RadianceImage};
+use manylights_metrics::{Error, RadianceImage, write_exr_layers};
 use tempfile::TempDir;
 
 const SIZE: [usize; 2] = [37, 19];
@@ -44,6 +44,27 @@ fn layer(name: &str, channels: &[&str], encoding: Encoding) -> Layer<AnyChannels
     });
     let attributes = LayerAttributes::named(name);
     Layer::new(Vec2(SIZE[0], SIZE[1]), attributes, encoding, AnyChannels::sort(list.collect()))
+}
+
+#[test]
+fn layers_are_named_channels_of_one_part() {
+    let folder = folder();
+    let path = folder.path().join("layers.exr");
+    let [a, b] = [1, 2].map(|seed| map(&noise(33, 21, seed), |c| c - 100.0));
+    let attributes = [("manylights.cell".to_owned(), "key".to_owned())];
+    write_exr_layers(&path, &[("image", &a), ("error", &b)], &attributes).expect("written");
+    let read = exr::prelude::read_all_flat_layers_from_file(&path).expect("readable");
+    let [layer] = read.layer_data.as_slice() else { panic!("one part") };
+    let names: Vec<_> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
+    assert_eq!(names, ["error.B", "error.G", "error.R", "image.B", "image.G", "image.R"]);
+    for (index, image, component) in [(2, &b, 0), (0, &b, 2), (4, &a, 1)] {
+        let values: Vec<f32> = layer.channel_data.list[index].sample_data.values_as_f32().collect();
+        let expected: Vec<f32> = image.pixels.iter().map(|pixel| pixel[component]).collect();
+        assert_eq!(values, expected, "{}", names[index]);
+    }
+    let other = RadianceImage::black(2, 2);
+    assert!(write_exr_layers(&path, &[("image", &a), ("error", &other)], &[]).is_err());
+    assert!(write_exr_layers(&path, &[], &[]).is_err());
 }
 
 #[test]

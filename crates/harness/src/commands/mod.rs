@@ -3,4 +3,5 @@
 pub(crate) mod list;
 pub(crate) mod metrics;
 pub(crate) mod render;
+pub(crate) mod report;
 pub(crate) mod run;

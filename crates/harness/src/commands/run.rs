@@ -11,8 +11,9 @@ use crate::error::Failure;
 use crate::experiment::{self, Experiment};
 use crate::journal::Journal;
 use crate::provenance::Provenance;
+use crate::report::{self, Report};
 use crate::session::{SceneCells, Session};
-use crate::{curves, output, sheet, stage, table};
+use crate::{curves, layers, output, sheet, stage, table};
 
 /// Runs an experiment, or what is left of it, and writes the answer.
 ///
@@ -29,6 +30,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let methods = experiment.variants.iter().map(|variant| variant.method);
     let gpu = stage::open_gpu(methods, arguments.machine.adapter.as_deref())?;
     let machine = Provenance::here(gpu.as_ref());
+    keep_experiment(file, out)?;
     let mut session = Session {
         experiment: &experiment,
         journal: Journal::open(out)?,
@@ -38,16 +40,40 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         on_gpu: machine.clone(),
         gpu,
     };
+    let mut all_cells = Vec::with_capacity(scenes.len());
     let mut answers = Vec::with_capacity(scenes.len());
     for scene in &scenes {
         let cells = session.scene(scene)?;
         session.retire(&cells)?;
+        for reference in &cells.references {
+            reference.write(&cells.scene, out)?;
+        }
         let answer = SceneAnswer::new(&experiment, &cells, out)?;
         write_sheet(&experiment, &cells, &answer, out)?;
+        layers::write(&experiment, scene, &cells, &answer, [&cache, out])?;
+        all_cells.push(cells);
         answers.push(answer);
     }
     write_answer(&experiment, &answers, &machine, out)?;
+    Report {
+        experiment: &experiment,
+        cells: &all_cells,
+        answers: &answers,
+        machine: &machine,
+        command: report::command(file, &experiment, arguments.out.as_deref()),
+    }
+    .write(out)?;
     check(&answers)
+}
+
+/// Puts the question beside the answer, for `manylights report`.
+fn keep_experiment(file: &Path, out: &Path) -> Result<(), Failure> {
+    let kept = out.join("experiment.toml");
+    let text = std::fs::read(file).map_err(Failure::input)?;
+    if std::fs::read(&kept).is_ok_and(|old| old == text) {
+        return Ok(());
+    }
+    output::write(&kept, &text)
 }
 
 fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec<Scene>, Failure> {

@@ -1,0 +1,137 @@
+//! An answer read back from its folder, without the scenes.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use clap::ValueEnum;
+use manylights_method::Visibility;
+
+use crate::cell::{Cell, Outcome};
+use crate::error::Failure;
+use crate::experiment::{self, Experiment, Profile};
+use crate::journal::Journal;
+use crate::plan::Turn;
+use crate::provenance::Provenance;
+use crate::reference::SceneReference;
+use crate::session::SceneCells;
+
+/// What `manylights run` left in a folder.
+pub(crate) struct Loaded {
+    /// The question, in the profile of the last cell.
+    pub(crate) experiment: Experiment,
+    /// Cells and references of each scene, in the order in which they ran.
+    pub(crate) scenes: Vec<SceneCells>,
+    /// Where the cells were made: that of one on the adapter, where there is one.
+    pub(crate) machine: Provenance,
+}
+
+/// Reads `experiment.toml`, `cells.jsonl` and the pictures of `directory`.
+///
+/// # Errors
+/// One line where one of them is missing or does not belong to the others.
+pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
+    let file = directory.join("experiment.toml");
+    let refuse = |reason: &str| {
+        Failure::input(format!(
+            "{}: {reason}: first manylights run {}",
+            directory.display(),
+            file.display()
+        ))
+    };
+    if !directory.join("cells.jsonl").is_file() {
+        return Err(refuse("no cells.jsonl"));
+    }
+    let journal = Journal::open(directory)?;
+    let last = journal.cells().next_back().ok_or_else(|| refuse("cells.jsonl is empty"))?;
+    let experiment = profile_of(last, &file)?
+        .ok_or_else(|| refuse("the last cell is of another experiment or profile"))?;
+    let here = |cell: &&Cell| same_host(&cell.provenance, &last.provenance);
+    let mut scenes: Vec<(String, BTreeMap<Key, &Cell>)> = Vec::new();
+    for cell in journal.cells().filter(here) {
+        let Some(turn) = turn_of(cell, &experiment) else { continue };
+        let name = &cell.inputs.scene;
+        let index = scenes.iter().position(|(scene, _)| scene == name).unwrap_or_else(|| {
+            scenes.push((name.clone(), BTreeMap::new()));
+            scenes.len() - 1
+        });
+        // The later cell counts: that of a newer build.
+        scenes[index].1.insert((turn.repetition, turn.seed, turn.variant), cell);
+    }
+    let on_adapter = journal.cells().filter(here).rfind(|cell| cell.provenance.adapter.is_some());
+    let machine = on_adapter.unwrap_or(last).provenance.clone();
+    let scenes = scenes
+        .into_iter()
+        .map(|(name, cells)| scene_cells(&experiment, name, &cells, directory))
+        .collect::<Result<_, _>>()?;
+    Ok(Loaded { experiment, scenes, machine })
+}
+
+/// Repetition, seed, variant: the order of a run.
+type Key = (u32, u64, usize);
+
+/// Times of two hosts are never compared.
+fn same_host(a: &Provenance, b: &Provenance) -> bool {
+    (&a.system, &a.cpu, a.threads) == (&b.system, &b.cpu, b.threads)
+}
+
+/// The experiment in the profile that asks for `cell`.
+fn profile_of(cell: &Cell, file: &Path) -> Result<Option<Experiment>, Failure> {
+    let mut refused = None;
+    for &profile in Profile::value_variants() {
+        match experiment::read(file, profile) {
+            Ok(experiment) if turn_of(cell, &experiment).is_some() => return Ok(Some(experiment)),
+            Ok(_) => refused = Some(Ok(None)),
+            Err(reason) => refused = refused.or(Some(Err(Failure::input(reason)))),
+        }
+    }
+    refused.unwrap_or(Ok(None))
+}
+
+/// Which turn of an experiment a cell is; `None` where it is of another one.
+fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
+    let (inputs, scale) = (&cell.inputs, &experiment.scale);
+    let variant = experiment.variants.iter().position(|variant| {
+        variant.method.id() == inputs.method
+            && variant.given() == inputs.parameters
+            && variant.budget == inputs.budget
+    })?;
+    let referred = experiment.references.iter().all(|reference| {
+        let samples = inputs.references.get(&reference.to_string());
+        samples.is_some_and(|&samples| samples >= scale.reference_samples)
+    });
+    let asked = inputs.resolution == scale.resolution
+        && inputs.transport == experiment.transport.to_string()
+        && scale.seeds.contains(&inputs.seed)
+        && inputs.repetition < scale.repetitions;
+    (referred && asked).then_some(Turn {
+        variant,
+        seed: inputs.seed,
+        repetition: inputs.repetition,
+    })
+}
+
+fn scene_cells(
+    experiment: &Experiment,
+    scene: String,
+    cells: &BTreeMap<Key, &Cell>,
+    directory: &Path,
+) -> Result<SceneCells, Failure> {
+    let done = cells.values().find_map(|cell| match &cell.outcome {
+        Outcome::Done(done) => Some(done),
+        _ => None,
+    });
+    let inputs = &cells.values().next().expect("a scene is there for a cell").inputs;
+    let reference = |&visibility: &Visibility| {
+        let comparison = done.and_then(|done| done.errors.get(&visibility.to_string()));
+        SceneReference::read(visibility, inputs, comparison, directory)
+    };
+    let turn = |(&(repetition, seed, variant), &cell): (&Key, &&Cell)| {
+        (Turn { variant, seed, repetition }, cell.clone())
+    };
+    Ok(SceneCells {
+        exposure: inputs.exposure,
+        references: experiment.references.iter().map(reference).collect::<Result<_, _>>()?,
+        cells: cells.iter().map(turn).collect(),
+        scene,
+    })
+}

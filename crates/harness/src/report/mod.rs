@@ -1,0 +1,236 @@
+//! `report.html`: one page with everything, which needs no network and no server.
+//!
+//! Style and scripts lie beside this file and are put into the page as they are; what they show is JSON
+//! and base64 in `<script>` elements that no browser runs. A content security policy keeps the page
+//! from loading anything.
+
+mod data;
+mod load;
+mod pictures;
+mod pixels;
+
+use std::path::Path;
+
+use manylights_metrics::{METRICS, RadianceImage, false_color};
+
+use crate::answer::SceneAnswer;
+use crate::error::Failure;
+use crate::experiment::Experiment;
+use crate::provenance::Provenance;
+use crate::session::SceneCells;
+use crate::{curves, output, table};
+use pictures::Pictures;
+
+pub(crate) use load::{Loaded, load};
+
+const PAGE: &str = include_str!("page/page.html");
+const STYLE: [&str; 2] = [include_str!("page/page.css"), include_str!("page/viewer.css")];
+/// Each declares what the next ones use.
+const SCRIPTS: [&str; 7] = [
+    include_str!("page/data.js"),
+    include_str!("page/pixels.js"),
+    include_str!("page/viewer.js"),
+    include_str!("page/gestures.js"),
+    include_str!("page/crops.js"),
+    include_str!("page/table.js"),
+    include_str!("page/main.js"),
+];
+
+/// What a report is made of.
+pub(crate) struct Report<'a> {
+    /// The question.
+    pub(crate) experiment: &'a Experiment,
+    /// Cells and references of each scene.
+    pub(crate) cells: &'a [SceneCells],
+    /// The answer for each of them.
+    pub(crate) answers: &'a [SceneAnswer],
+    /// Program and machine.
+    pub(crate) machine: &'a Provenance,
+    /// What makes the results again.
+    pub(crate) command: String,
+}
+
+impl Report<'_> {
+    /// Writes `report.html` into the folder that holds the pictures of the cells.
+    ///
+    /// # Errors
+    /// One line where a picture cannot be read or the page cannot be written.
+    pub(crate) fn write(&self, out: &Path) -> Result<(), Failure> {
+        let path = out.join("report.html");
+        output::write(&path, self.html(out)?.as_bytes())?;
+        eprintln!("{}", path.display());
+        Ok(())
+    }
+
+    fn html(&self, out: &Path) -> Result<String, Failure> {
+        let scenes = self.cells.iter().zip(self.answers);
+        let pictures: Vec<Pictures<'_>> = scenes
+            .map(|(cells, answer)| {
+                Pictures::read(self.experiment, cells, answer, self.cells.len(), out)
+            })
+            .collect::<Result<_, _>>()?;
+        let csv = table::csv(self.experiment, self.answers);
+        let data = data::data(self, &pictures, csv).to_string();
+        let curves = curves::svg(self.experiment, self.answers)?;
+        // Part of an HTML document, an SVG needs no name of its language.
+        let curves = curves.replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
+        Ok(fill(
+            PAGE,
+            &[
+                ("title", &escaped(&self.experiment.title)),
+                ("question", &escaped(&self.experiment.question)),
+                ("facts", &self.facts()),
+                ("metrics", &metrics()),
+                ("style", &STYLE.concat()),
+                ("curves", &curves),
+                ("data", &in_script(&data)),
+                ("ramp", &ramp()),
+                ("pictures", &picture_scripts(&pictures)),
+                ("scripts", &SCRIPTS.concat()),
+            ],
+        ))
+    }
+
+    /// What was run, and where: terms and descriptions.
+    fn facts(&self) -> String {
+        let Self { experiment, machine, .. } = self;
+        let scale = &experiment.scale;
+        let [width, height] = scale.resolution;
+        let adapter = machine.adapter.as_ref().map_or("none needed".to_owned(), |adapter| {
+            let field = |name: &str| adapter[name].as_str().unwrap_or_default().to_owned();
+            format!("{} ({} {})", field("name"), field("driver"), field("driver_info"))
+        });
+        let facts = [
+            (
+                "Profile",
+                format!(
+                    "{}: {width}×{height} pixels, {} timed runs for each of {} seed(s)",
+                    experiment.profile,
+                    scale.repetitions,
+                    scale.seeds.len()
+                ),
+            ),
+            (
+                "Light paths",
+                format!(
+                    "{}; references of {} samples a pixel",
+                    experiment.transport, scale.reference_samples
+                ),
+            ),
+            (
+                "Processor",
+                format!("{}, {} threads, {}", machine.cpu, machine.threads, machine.system),
+            ),
+            ("Adapter", adapter),
+            ("Program", format!("{}, {}", machine.program_name(), machine.rustc)),
+        ];
+        let facts = facts.map(|(term, text)| definition(term, &escaped(&text)));
+        let command = format!("<code>{}</code>", escaped(&self.command));
+        facts.concat() + &definition("Made by", &command)
+    }
+}
+
+/// The command line that runs an experiment in its profile.
+pub(crate) fn command(file: &Path, experiment: &Experiment, out: Option<&Path>) -> String {
+    let mut words = vec![
+        "manylights run".to_owned(),
+        file.display().to_string(),
+        format!("--profile {}", experiment.profile),
+    ];
+    words.extend(out.map(|out| format!("--out {}", out.display())));
+    words.join(" ")
+}
+
+fn definition(term: &str, html: &str) -> String {
+    format!("<div><dt>{term}</dt><dd>{html}</dd></div>\n")
+}
+
+/// The formula of each metric.
+fn metrics() -> String {
+    METRICS.iter().map(|metric| definition(metric.id, &escaped(metric.formula))).collect()
+}
+
+/// The colours of absolute errors from zero to the end of the scale: 256 times R, G, B, 8 bits of sRGB.
+fn ramp() -> String {
+    let steps = 256_u16;
+    let pixels = (0..steps).map(|step| [f32::from(step) / f32::from(steps - 1); 3]).collect();
+    let levels = RadianceImage { width: steps.into(), height: 1, pixels };
+    let black = RadianceImage::black(steps.into(), 1);
+    let colors = false_color(&levels, &black, 1.0).display(1.0);
+    let bytes = colors.pixels.iter().flatten().map(|value| (255.0 * value).round() as u8);
+    serde_json::to_string(&bytes.collect::<Vec<_>>()).expect("numbers are plain data")
+}
+
+fn picture_scripts(scenes: &[Pictures<'_>]) -> String {
+    let mut text = String::new();
+    for (scene, pictures) in scenes.iter().enumerate() {
+        for (index, encoded) in pictures.encoded().enumerate() {
+            text.push_str(&format!(
+                "<script type=\"text/plain\" id=\"picture-{scene}-{index}\">{encoded}</script>\n"
+            ));
+        }
+    }
+    text
+}
+
+/// Replaces each `{{name}}` of a template once; what is put in is not looked at.
+fn fill(template: &str, values: &[(&str, &str)]) -> String {
+    let mut parts = template.split("{{");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, rest) = part.split_once("}}").expect("the template closes its braces");
+        let value = values.iter().find(|(key, _)| *key == name).expect("a value for each name");
+        text.push_str(value.1);
+        text.push_str(rest);
+    }
+    text
+}
+
+/// Text between tags or in an attribute.
+fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            other => safe.push(other),
+        }
+    }
+    safe
+}
+
+/// JSON in a `<script>` element, which ends at `</script` and changes its rules at `<!--`, strings or
+/// not: there is no `<` in it.
+fn in_script(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn templates_are_filled_in_one_pass() {
+        assert_eq!(fill("a {{x}} b {{y}}", &[("x", "{{y}}"), ("y", "1")]), "a {{y}} b 1");
+    }
+
+    #[test]
+    fn text_cannot_leave_its_place() {
+        assert_eq!(escaped("<a href='\"&'>"), "&lt;a href=&#39;&quot;&amp;&#39;&gt;");
+        let json = in_script("{\"a\":\"</script><!--\"}");
+        assert!(!json.contains('<'));
+        let value: serde_json::Value = serde_json::from_str(&json).expect("still JSON");
+        assert_eq!(value["a"], "</script><!--");
+    }
+
+    #[test]
+    fn the_ramp_runs_from_black_to_light() {
+        let colors: Vec<u8> = serde_json::from_str(&ramp()).expect("JSON");
+        assert_eq!(colors.len(), 768);
+        assert_eq!(colors[..3], [0, 0, 0]);
+        assert!(colors[765..].iter().all(|&component| component > 128), "{:?}", &colors[765..]);
+    }
+}
