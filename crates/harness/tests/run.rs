@@ -87,7 +87,8 @@ fn check_files(folder: &Path) {
     assert!(curves.contains("noise floor") && curves.ends_with("</svg>\n"), "not a figure");
     image::open(out.join("sheet-cornell.png")).expect("a sheet");
     let pictures = out.join("cells").read_dir().expect("pictures").count();
-    assert_eq!(pictures, 2 * 2 * 2, "an EXR and a PNG for each setting and seed");
+    let cells = 2 * 2 * 2; // an EXR and a PNG for each setting and seed
+    assert_eq!(pictures, cells + 2 + 2, "layers of each setting; references");
 }
 
 fn check_cells(lines: &[String]) {
