@@ -29,6 +29,7 @@ mod published;
 mod reference;
 pub mod registry;
 mod scene_run;
+mod series;
 mod session;
 mod settings;
 mod sheet;

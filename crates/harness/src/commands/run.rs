@@ -7,12 +7,13 @@ use manylights_scene::Scene;
 
 use crate::answer::{RowResult, SceneAnswer};
 use crate::cli::RunArguments;
+use crate::curves::Figure;
 use crate::error::Failure;
 use crate::experiment::{self, Experiment};
 use crate::journal::Journal;
 use crate::provenance::Provenance;
 use crate::session::{SceneCells, Session};
-use crate::{curves, output, sheet, stage, table};
+use crate::{output, sheet, stage, table};
 
 /// Runs an experiment, or what is left of it, and writes the answer.
 ///
@@ -84,14 +85,17 @@ fn write_answer(
     out: &Path,
 ) -> Result<(), Failure> {
     let markdown = table::markdown(experiment, answers, machine);
+    let figure = Figure::new(experiment, answers);
     let files = [
-        ("table.md", markdown),
-        ("table.csv", table::csv(experiment, answers)),
-        ("curves.svg", curves::svg(experiment, answers)?),
+        ("table.md", markdown.into_bytes()),
+        ("table.tex", table::latex(experiment, answers, machine).into_bytes()),
+        ("table.csv", table::csv(experiment, answers).into_bytes()),
+        ("curves.svg", figure.svg()?.into_bytes()),
+        ("curves.png", figure.png()?),
     ];
-    for (name, text) in files {
+    for (name, bytes) in files {
         let path = out.join(name);
-        output::write(&path, text.as_bytes())?;
+        output::write(&path, &bytes)?;
         eprintln!("{}", path.display());
     }
     for answer in answers {
