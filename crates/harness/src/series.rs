@@ -1,11 +1,12 @@
 //! Curves: the variants of an experiment that differ in one parameter alone, and what was measured
 //! along them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use plotters::style::RGBColor;
 
-use crate::answer::SceneAnswer;
+use crate::answer::{Medians, Row, SceneAnswer};
+use crate::cell::Checkpoint;
 use crate::experiment::Experiment;
 use crate::style::{Marker, method_style};
 
@@ -17,6 +18,8 @@ pub(crate) struct Series {
     method: &'static str,
     /// Which of the curves of its method.
     pub(crate) nth: usize,
+    /// Which machine's; a curve never joins the times of two.
+    machine: String,
     /// Indices into the experiment's variants.
     variants: Vec<usize>,
     /// Whether its points differ in the amount of work, so that checkpoints lie on it.
@@ -34,21 +37,30 @@ pub(crate) struct Point {
     pub(crate) rmse: [f64; 3],
 }
 
-/// The curves of an experiment, in the order of its variants.
-pub(crate) fn of_experiment(experiment: &Experiment) -> Vec<Series> {
+/// The curves of an experiment, in the order of its variants, for each machine that ran cells.
+pub(crate) fn of_experiment(experiment: &Experiment, scenes: &[SceneAnswer]) -> Vec<Series> {
+    let rows = || scenes.iter().flat_map(|scene| &scene.rows);
+    let machines: BTreeSet<&str> = rows().map(|row| row.machine.as_str()).collect();
     let mut list: Vec<Series> = Vec::new();
     let mut curves_of = BTreeMap::new();
-    for (index, variant) in experiment.variants.iter().enumerate() {
-        let name = variant.series();
-        if let Some(series) = list.iter_mut().find(|series| series.name == name) {
-            series.variants.push(index);
-            continue;
+    for &machine in &machines {
+        for (index, variant) in experiment.variants.iter().enumerate() {
+            if !rows().any(|row| row.variant == index && row.machine == machine) {
+                continue;
+            }
+            let several = if machines.len() > 1 { format!(" @{machine}") } else { String::new() };
+            let name = variant.series() + &several;
+            if let Some(series) = list.iter_mut().find(|series| series.name == name) {
+                series.variants.push(index);
+                continue;
+            }
+            let method = variant.method.id();
+            let nth = curves_of.entry(method).or_insert(0);
+            let along_cost = variant.swept == variant.method.cost_parameter();
+            let machine = machine.to_owned();
+            list.push(Series { name, method, nth: *nth, machine, variants: vec![index], along_cost });
+            *nth += 1;
         }
-        let method = variant.method.id();
-        let nth = curves_of.entry(method).or_insert(0);
-        let along_cost = variant.swept == variant.method.cost_parameter();
-        list.push(Series { name, method, nth: *nth, variants: vec![index], along_cost });
-        *nth += 1;
     }
     list
 }
@@ -62,11 +74,12 @@ impl Series {
     /// What was measured on a scene against a reference: in the order of the amount of work where
     /// that is what changes along the curve, else in that of the sweep.
     pub(crate) fn points(&self, scene: &SceneAnswer, reference: &str) -> Vec<Point> {
+        let runs = self.runs(scene);
         let mut points: Vec<Point> =
-            self.variants.iter().filter_map(|&variant| point(scene, variant, reference)).collect();
+            runs.iter().filter_map(|medians| point(medians, reference)).collect();
         if self.along_cost {
             let known: Vec<u64> = points.iter().map(|point| point.amount).collect();
-            let mut between = self.checkpoints(scene, reference);
+            let mut between = checkpoints(&runs, reference);
             between.retain(|point| !known.contains(&point.amount));
             points.extend(between);
             points.sort_by_key(|point| point.amount);
@@ -74,21 +87,28 @@ impl Series {
         points
     }
 
-    /// The way of the longest run.
-    fn checkpoints(&self, scene: &SceneAnswer, reference: &str) -> Vec<Point> {
-        let runs = self.variants.iter().filter_map(|&variant| scene.rows[variant].medians());
-        let Some(longest) = runs.max_by_key(|medians| medians.amount) else { return Vec::new() };
-        let point = |checkpoint: &crate::cell::Checkpoint| {
-            let rmse = *checkpoint.display_rmse.get(reference)?;
-            let seconds = [checkpoint.step_seconds; 3];
-            Some(Point { amount: checkpoint.amount, seconds, rmse: [rmse; 3] })
+    /// What its variants measured on a scene, in their order.
+    fn runs<'s>(&self, scene: &'s SceneAnswer) -> Vec<&'s Medians> {
+        let run = |&variant: &usize| {
+            let same = |row: &&Row| row.variant == variant && row.machine == self.machine;
+            scene.rows.iter().find(same)?.medians()
         };
-        longest.checkpoints.iter().filter_map(point).collect()
+        self.variants.iter().filter_map(run).collect()
     }
 }
 
-fn point(scene: &SceneAnswer, variant: usize, reference: &str) -> Option<Point> {
-    let medians = scene.rows[variant].medians()?;
+/// The way of the longest run.
+fn checkpoints(runs: &[&Medians], reference: &str) -> Vec<Point> {
+    let Some(longest) = runs.iter().max_by_key(|medians| medians.amount) else { return Vec::new() };
+    let point = |checkpoint: &Checkpoint| {
+        let rmse = *checkpoint.display_rmse.get(reference)?;
+        let seconds = [checkpoint.step_seconds; 3];
+        Some(Point { amount: checkpoint.amount, seconds, rmse: [rmse; 3] })
+    };
+    longest.checkpoints.iter().filter_map(point).collect()
+}
+
+fn point(medians: &Medians, reference: &str) -> Option<Point> {
     let rmse = medians.errors.get(reference)?.display.rmse;
     let seeds = medians.seed_rmse.get(reference)?;
     let seconds = medians.seconds;

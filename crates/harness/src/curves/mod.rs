@@ -38,7 +38,7 @@ pub(crate) struct Figure<'f> {
 impl<'f> Figure<'f> {
     /// Of an answer.
     pub(crate) fn new(experiment: &'f Experiment, scenes: &'f [SceneAnswer]) -> Self {
-        Self { experiment, scenes, series: series::of_experiment(experiment) }
+        Self { experiment, scenes, series: series::of_experiment(experiment, scenes) }
     }
 
     /// For browsers and papers.

@@ -7,12 +7,12 @@ use crate::experiment::Experiment;
 use crate::plan::{Budget, Variant};
 
 /// Columns before those of the metrics.
-const COLUMNS: usize = 18;
+const COLUMNS: usize = 19;
 
 /// The table for programs: one line for each scene, variant and reference.
 pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
     let mut text = String::from(
-        "scene,method,parameters,time_budget,reference,outcome,rank,rank_shared,amount,runs,seconds,\
+        "scene,method,parameters,time_budget,machine,reference,outcome,rank,rank_shared,amount,runs,seconds,\
          seconds_lower,seconds_upper,prepare_seconds,linear_floor,display_floor,display_bias,\
          display_deviation",
     );
@@ -47,6 +47,7 @@ fn csv_line(
         variant.method.id().to_owned(),
         quoted(&parameters(variant)),
         budget(variant.budget),
+        quoted(&row.machine),
         reference.to_owned(),
     ];
     match &row.result {

@@ -4,7 +4,7 @@ mod csv;
 mod latex;
 mod markdown;
 
-use crate::answer::{Medians, Rank, RowResult, SceneAnswer};
+use crate::answer::{Medians, Rank, Row, RowResult, SceneAnswer};
 use crate::columns::Column;
 use crate::experiment::Experiment;
 use crate::numbers::{milliseconds, short};
@@ -71,10 +71,12 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &str) -> Tab
     heading.extend(columns.iter().map(|column| (column.title(), *column != Column::Counts)));
     let ranks = scene.ranks(reference);
     let lines = scene.rows.iter().zip(ranks).map(|(row, rank)| {
-        let label = experiment.variants[row.variant].label();
+        let several = scene.rows.iter().any(|other| other.machine != row.machine);
+        let machine = if several { format!(" @{}", row.machine) } else { String::new() };
+        let label = experiment.variants[row.variant].label() + &machine;
         match &row.result {
             RowResult::Done(medians) => {
-                let at = Place { experiment, scene, row: row.variant, reference };
+                let at = Place { experiment, scene, row, reference };
                 let mut line = vec![rank.map_or_else(String::new, place), label];
                 line.extend(columns.iter().map(|column| at.cell(*column, medians)));
                 line
@@ -116,14 +118,14 @@ fn place(rank: Rank) -> String {
 struct Place<'t> {
     experiment: &'t Experiment,
     scene: &'t SceneAnswer,
-    row: usize,
+    row: &'t Row,
     reference: &'t str,
 }
 
 impl Place<'_> {
     fn cell(&self, column: Column, medians: &Medians) -> String {
         let errors = &medians.errors[self.reference];
-        let base = self.scene.rows[self.experiment.baseline].medians();
+        let base = self.scene.baseline(self.row).and_then(Row::medians);
         let ratio = |of: &dyn Fn(&Medians) -> f64| {
             base.map_or_else(String::new, |base| short(of(medians) / of(base)))
         };
@@ -147,11 +149,12 @@ impl Place<'_> {
 
     /// Marks a time that misses its budget.
     fn overrun(&self, medians: &Medians) -> &'static str {
-        let budget = match self.experiment.variants[self.row].budget {
+        let budget = match self.experiment.variants[self.row.variant].budget {
             Budget::Count => return "",
             Budget::Seconds(seconds) => Some(seconds),
             Budget::Baseline => {
-                self.scene.rows[self.experiment.baseline].medians().map(|m| m.seconds.median)
+                let baseline = self.scene.baseline(self.row).and_then(Row::medians);
+                baseline.map(|medians| medians.seconds.median)
             }
         };
         let off = budget.map(|budget| (medians.seconds.median / budget - 1.0).abs());
@@ -160,9 +163,9 @@ impl Place<'_> {
 
     /// Marks a difference to the baseline that may be chance.
     fn insignificance(&self) -> &'static str {
-        let baseline = self.experiment.baseline;
-        let differs = self.scene.differs(self.row, baseline, self.reference);
-        if self.row != baseline && differs == Some(false) { " ≈" } else { "" }
+        let differs = self.scene.differs(self.row, self.reference);
+        let is_baseline = self.row.variant == self.experiment.baseline;
+        if !is_baseline && differs == Some(false) { " ≈" } else { "" }
     }
 }
 
@@ -182,7 +185,7 @@ fn time_to_error(experiment: &Experiment, scene: &SceneAnswer) -> Option<Table> 
     }
     let mut lines = Vec::new();
     for reference in experiment.references.iter().map(ToString::to_string) {
-        for curve in series::of_experiment(experiment) {
+        for curve in series::of_experiment(experiment, std::slice::from_ref(scene)) {
             let points = curve.points(scene, &reference);
             for &error in &experiment.errors {
                 let time = series::seconds_to_reach(&points, error);
@@ -205,7 +208,8 @@ pub(crate) fn published(experiment: &Experiment, scenes: &[SceneAnswer]) -> Opti
     }
     let line = |published: &crate::published::Published| {
         let scene = scenes.iter().find(|scene| scene.scene == published.scene);
-        let medians = scene.and_then(|scene| scene.rows[published.variant].medians());
+        let same = |row: &&Row| row.variant == published.variant;
+        let medians = scene.and_then(|scene| scene.rows.iter().find(same)?.medians());
         let ours = medians.map(|medians| {
             (published.metric.value)(&medians.errors[&published.reference.to_string()].display)
         });
