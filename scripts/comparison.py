@@ -27,7 +27,7 @@ def install(*packages):
 
 def build(example):
     """Builds an example of the path tracer and returns its program."""
-    output("cargo", "build", "--release", "--locked", "-p", "manylights-path-tracer", "--example", example)
+    output("cargo", "build", "--release", "--locked", "--workspace", "--example", example)
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     return target / "release" / "examples" / example
 

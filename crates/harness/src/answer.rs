@@ -17,14 +17,18 @@ use crate::statistics::{Quartiles, median, paired_difference, quartiles};
 pub(crate) struct SceneAnswer {
     /// Its name.
     pub(crate) scene: String,
-    /// One for each variant, in the order of the experiment.
+    /// One for each variant and machine, in the order of the experiment.
     pub(crate) rows: Vec<Row>,
+    /// Index of the variant that ratios refer to.
+    baseline: usize,
 }
 
-/// A variant on a scene.
+/// A variant on a scene, run by one machine.
 pub(crate) struct Row {
     /// Index into the experiment's variants.
     pub(crate) variant: usize,
+    /// Which machine. Times of different ones are never compared.
+    pub(crate) machine: String,
     /// What came out.
     pub(crate) result: RowResult,
 }
@@ -83,25 +87,33 @@ impl SceneAnswer {
         scene: &SceneCells,
         out: &Path,
     ) -> Result<Self, Failure> {
-        let row = |variant| {
-            let cells: Vec<_> =
-                scene.cells.iter().filter(|(turn, _)| turn.variant == variant).collect();
+        let mut groups: BTreeMap<(usize, &str), Vec<&(Turn, Cell)>> = BTreeMap::new();
+        for cell in &scene.cells {
+            let machine = cell.1.provenance.machine.as_str();
+            groups.entry((cell.0.variant, machine)).or_default().push(cell);
+        }
+        let row = |((variant, machine), cells): ((usize, &str), Vec<&(Turn, Cell)>)| {
             let mut result = result(&cells);
             if let RowResult::Done(medians) = &mut result {
                 medians.bias = bias::of_cells(&cells, scene, out)?;
             }
-            Ok::<_, Failure>(Row { variant, result })
+            Ok::<_, Failure>(Row { variant, machine: machine.to_owned(), result })
         };
-        let rows = (0..experiment.variants.len()).map(row).collect::<Result<_, _>>()?;
-        Ok(Self { scene: scene.scene.clone(), rows })
+        let rows = groups.into_iter().map(row).collect::<Result<_, _>>()?;
+        Ok(Self { scene: scene.scene.clone(), rows, baseline: experiment.baseline })
     }
 
-    /// Whether the RMSE of a row differs from that of another by more than chance, seed by seed;
+    /// The row of the baseline that the same machine ran.
+    pub(crate) fn baseline(&self, row: &Row) -> Option<&Row> {
+        let same = |other: &&Row| other.variant == self.baseline && other.machine == row.machine;
+        self.rows.iter().find(same)
+    }
+
+    /// Whether the RMSE of a row differs from the baseline's by more than chance, seed by seed;
     /// `None` where there are too few seeds to tell.
-    pub(crate) fn differs(&self, row: usize, other: usize, reference: &str) -> Option<bool> {
-        let seeds = |row: usize| self.rows[row].medians()?.seed_rmse.get(reference);
-        let pairs: Vec<_> =
-            seeds(row)?.iter().copied().zip(seeds(other)?.iter().copied()).collect();
+    pub(crate) fn differs(&self, row: &Row, reference: &str) -> Option<bool> {
+        let seeds = |row: &Row| row.medians()?.seed_rmse.get(reference).cloned();
+        let pairs: Vec<_> = seeds(row)?.into_iter().zip(seeds(self.baseline(row)?)?).collect();
         paired_difference(&pairs).map(|(mean, half)| mean.abs() > half)
     }
 
@@ -229,6 +241,10 @@ mod tests {
         Errors { rmse, mse: rmse * rmse, mae: 0.0, psnr: 0.0, ssim: 0.0, rel_mse: 0.0, smape: 0.0 }
     }
 
+    fn row_of(variant: usize, result: RowResult) -> Row {
+        Row { variant, machine: "m".into(), result }
+    }
+
     fn row(variant: usize, rmse: f64) -> Row {
         let comparison = Comparison {
             linear: errors(rmse),
@@ -251,14 +267,14 @@ mod tests {
             bias: BTreeMap::new(),
             checkpoints: Vec::new(),
         };
-        Row { variant, result: RowResult::Done(Box::new(medians)) }
+        row_of(variant, RowResult::Done(Box::new(medians)))
     }
 
     #[test]
     fn rows_closer_than_the_floor_share_a_rank() {
-        let declined = Row { variant: 3, result: RowResult::Declined("no".into()) };
+        let declined = row_of(3, RowResult::Declined("no".into()));
         let rows = vec![row(0, 0.5), row(1, 0.105), row(2, 0.1), declined, row(4, 0.2)];
-        let ranks = SceneAnswer { scene: "s".into(), rows }.ranks("traced");
+        let ranks = SceneAnswer { scene: "s".into(), rows, baseline: 0 }.ranks("traced");
         let rank = |place, shared| Some(Rank { place, shared });
         assert_eq!(ranks, [rank(4, false), rank(1, true), rank(1, true), None, rank(3, false)]);
     }

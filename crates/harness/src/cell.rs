@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 
 use manylights_metrics::{Errors, RadianceImage};
+use manylights_scene::Scene;
 use serde::{Deserialize, Serialize};
 
-use crate::plan::Budget;
+use crate::experiment::Experiment;
+use crate::plan::{Budget, Variant};
 use crate::provenance::{Provenance, sha256};
 
 /// What decides the picture and its errors, and where its time was taken.
@@ -36,6 +38,48 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
+    /// Of a variant on a scene of this content, with the references that were asked for.
+    pub(crate) fn new(
+        experiment: &Experiment,
+        scene: &Scene,
+        content: &str,
+        variant: &Variant,
+    ) -> Self {
+        let samples = experiment.scale.reference_samples;
+        Self {
+            scene: scene.name.clone(),
+            scene_content: content.to_owned(),
+            method: variant.method.id().to_owned(),
+            parameters: variant.given(),
+            budget: variant.budget,
+            seed: 0,
+            repetition: 0,
+            transport: experiment.transport.to_string(),
+            resolution: experiment.scale.resolution,
+            exposure: scene.exposure,
+            references: experiment.references.iter().map(|v| (v.to_string(), samples)).collect(),
+        }
+    }
+
+    /// Names what is asked, whoever answers: the same for all seeds and repetitions, which one
+    /// machine must answer together, on every machine and in every build.
+    pub(crate) fn question(&self) -> String {
+        let asked = Self { seed: 0, repetition: 0, ..self.clone() };
+        sha256(&serde_json::to_vec(&asked).expect("inputs are plain data"))
+    }
+
+    /// Method, parameters and budget, for people and trackers.
+    pub(crate) fn label(&self) -> String {
+        let mut words = vec![self.method.clone()];
+        words.extend(self.parameters.iter().map(|(name, value)| format!("{name}={value}")));
+        words.extend(match self.budget {
+            Budget::Count => None,
+            Budget::Seconds(seconds) => Some(format!("time={seconds}s")),
+            Budget::Baseline => Some("time=baseline".to_owned()),
+        });
+        words.join(" ")
+    }
+
     /// Names the cell: the hash of the inputs, the program and the machine. A cell of the same key
     /// need not run again.
     pub(crate) fn key(&self, provenance: &Provenance) -> String {

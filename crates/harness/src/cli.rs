@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::error::ErrorKind;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use manylights_method::{Transport, Visibility};
 
 use crate::commands;
@@ -28,14 +28,43 @@ enum Command {
     /// Lists methods, scenes or experiments
     List(ListArguments),
     /// Renders one picture
+    #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
     /// Prints the errors of a picture against a reference
     Metrics(MetricsArguments),
     /// Runs an experiment and writes tables, curves and pictures
+    #[command(after_help = RUN_EXAMPLES)]
     Run(RunArguments),
     /// Writes report.html, a page that needs no network, from the results in a folder
     Report(ReportArguments),
+    /// Lists the jobs of an experiment, for `run --cell` on other machines
+    Plan(PlanArguments),
+    /// Compares a fresh quick run with a committed baseline
+    #[command(after_help = CHECK_EXAMPLES)]
+    Check(CheckArguments),
+    /// Prints results in the format of a benchmark tracker
+    Export(ExportArguments),
+    /// Prints the completions of a shell
+    Completions {
+        /// Which shell
+        shell: clap_complete::Shell,
+    },
 }
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  manylights render --scene cornell --method vpl --set lights=4096 -o cornell.exr
+  manylights render --scene hall.glb --method reference --transport all -o truth.exr";
+
+const RUN_EXAMPLES: &str = "\
+Examples:
+  manylights run results/first-light/experiment.toml --profile quick
+  manylights run results/equal-time/experiment.toml --profile standard --out results/mine";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  manylights check                                 # exit status 1 and a table where something moved
+  manylights check --baseline results/check --bless # what moved was meant to";
 
 /// What `list` shows.
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -122,6 +151,9 @@ pub(crate) struct RunArguments {
     /// Folder of the results [default: that of the experiment file]
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Runs the cells of one line of `plan` alone
+    #[arg(long, value_name = "KEY")]
+    pub(crate) cell: Option<String>,
     /// Folder of references [default: manylights/references in the user's cache folder]
     #[arg(long, value_name = "DIR", env = "MANYLIGHTS_CACHE")]
     pub(crate) cache: Option<PathBuf>,
@@ -136,6 +168,54 @@ pub(crate) struct ReportArguments {
     pub(crate) directory: PathBuf,
 }
 
+#[derive(Args)]
+pub(crate) struct PlanArguments {
+    /// Experiment file
+    pub(crate) experiment: PathBuf,
+    /// How large
+    #[arg(long, value_enum, default_value = "standard")]
+    pub(crate) profile: Profile,
+    /// Folder of the scene files' glTF assets
+    #[arg(long, value_name = "DIR", env = "MANYLIGHTS_ASSETS")]
+    pub(crate) assets: Option<PathBuf>,
+    /// As JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct CheckArguments {
+    /// Folder of the baseline: its experiment.toml and cells.jsonl
+    #[arg(long, value_name = "DIR", default_value = "results/check")]
+    pub(crate) baseline: PathBuf,
+    /// Makes what comes out the new baseline
+    #[arg(long)]
+    pub(crate) bless: bool,
+    /// What moved, as JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) machine: Machine,
+}
+
+/// A service that tracks benchmarks.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Tracker {
+    /// Bencher Metric Format
+    Bencher,
+    /// customSmallerIsBetter
+    GithubActionBenchmark,
+}
+
+#[derive(Args)]
+pub(crate) struct ExportArguments {
+    /// Folder of results
+    pub(crate) directory: PathBuf,
+    /// Of which tracker
+    #[arg(long, value_enum)]
+    pub(crate) format: Tracker,
+}
+
 /// Runs the program. Help and version go to standard output, as everywhere.
 ///
 /// # Errors
@@ -146,7 +226,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure>
         Err(error)
             if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) =>
         {
-            print!("{error}");
+            // In colour on a terminal, unless NO_COLOR says otherwise. A closed pipe is no error.
+            let _ = error.print();
             return Ok(());
         }
         Err(error) => return Err(Failure::BadInput(mend(&error))),
@@ -157,14 +238,22 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure>
         Command::Metrics(arguments) => commands::metrics::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
+        Command::Plan(arguments) => commands::plan::run(&arguments),
+        Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Export(arguments) => commands::export::run(&arguments),
+        Command::Completions { shell } => {
+            commands::completions::run(shell, &mut Cli::command());
+            Ok(())
+        }
     }
 }
 
 /// clap explains in paragraphs; the contract wants a line. Usage is left to `--help`.
 fn mend(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing: list, render, metrics, run or report; see manylights --help"
-            .into();
+        let commands = Cli::command();
+        let names: Vec<_> = commands.get_subcommands().map(clap::Command::get_name).collect();
+        return format!("a command is missing: {}; see manylights --help", names.join(", "));
     }
     let text = error.to_string();
     let explanation = text.split("\n\nUsage:").next().unwrap_or(&text);
@@ -175,8 +264,6 @@ fn mend(error: &clap::Error) -> String {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
 
     #[test]

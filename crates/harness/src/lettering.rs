@@ -17,17 +17,22 @@ pub(crate) fn fitting(width: u32) -> usize {
 
 /// Writes a line of ASCII with its upper left corner at (`x`, `y`); what does not fit is cut off.
 pub(crate) fn write(picture: &mut RgbImage, x: u32, y: u32, text: &str, color: Rgb<u8>) {
-    for (index, character) in (0..).zip(text.chars()) {
-        let glyph = BASIC_LEGACY.get(character as usize).unwrap_or(&BASIC_LEGACY[b'?' as usize]);
-        for dot in dots(glyph) {
-            let (left, top) = (x + index * CHARACTER + ZOOM * dot.0, y + ZOOM * dot.1);
-            for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-                if let Some(pixel) = picture.get_pixel_mut_checked(left + dx, top + dy) {
-                    *pixel = color;
-                }
+    for dot in dots_of(text) {
+        let (left, top) = (x + ZOOM * dot.0, y + ZOOM * dot.1);
+        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            if let Some(pixel) = picture.get_pixel_mut_checked(left + dx, top + dy) {
+                *pixel = color;
             }
         }
     }
+}
+
+/// Set dots of a line of ASCII as (column, row): eight of each for a character.
+pub(crate) fn dots_of(text: &str) -> impl Iterator<Item = (u32, u32)> + '_ {
+    (0..).step_by(8).zip(text.chars()).flat_map(|(left, character)| {
+        let glyph = BASIC_LEGACY.get(character as usize).unwrap_or(&BASIC_LEGACY[b'?' as usize]);
+        dots(glyph).map(move |(column, row)| (left + column, row))
+    })
 }
 
 /// Set dots as (column, row); the lowest bit of a row is its leftmost dot.

@@ -99,11 +99,12 @@ pub(crate) struct Turn {
 }
 
 /// The runs of one scene. Variants take turns, so that a slow minute of the machine hits them all.
-pub(crate) fn interleaved(variants: usize, seeds: &[u64], repetitions: u32) -> Vec<Turn> {
+pub(crate) fn interleaved(variants: &[usize], seeds: &[u64], repetitions: u32) -> Vec<Turn> {
     let mut turns = Vec::new();
     for repetition in 0..repetitions {
         for &seed in seeds {
-            turns.extend((0..variants).map(|variant| Turn { variant, seed, repetition }));
+            let turn = |&variant: &usize| Turn { variant, seed, repetition };
+            turns.extend(variants.iter().map(turn));
         }
     }
     turns
@@ -115,7 +116,7 @@ mod tests {
 
     #[test]
     fn variants_take_turns() {
-        let turns = interleaved(2, &[7], 2);
+        let turns = interleaved(&[0, 1], &[7], 2);
         let order: Vec<_> = turns.iter().map(|turn| (turn.repetition, turn.variant)).collect();
         assert_eq!(order, [(0, 0), (0, 1), (1, 0), (1, 1)]);
     }

@@ -17,6 +17,9 @@ pub(crate) struct Provenance {
     pub(crate) rustc: String,
     /// SHA-256 of the running program, which holds all shaders: cells of another build run again.
     pub(crate) program: String,
+    /// Which machine: `MANYLIGHTS_MACHINE`, else made from system, processor and threads. Times of
+    /// different machines are never compared.
+    pub(crate) machine: String,
     /// Operating system and architecture.
     pub(crate) system: String,
     /// Name of the processor.
@@ -30,14 +33,20 @@ pub(crate) struct Provenance {
 impl Provenance {
     /// Of this program on this machine.
     pub(crate) fn here(gpu: Option<&Gpu>) -> Self {
+        let system = format!("{} {}", std::env::consts::OS, std::env::consts::ARCH);
+        let cpu = cpu();
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let named = std::env::var("MANYLIGHTS_MACHINE").ok().filter(|name| !name.is_empty());
+        let made = || sha256(format!("{system}\n{cpu}\n{threads}").as_bytes())[..8].to_owned();
         Self {
+            machine: named.unwrap_or_else(made),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             commit: option_env!("MANYLIGHTS_COMMIT").map(str::to_owned),
             rustc: env!("MANYLIGHTS_RUSTC").to_owned(),
             program: program().to_owned(),
-            system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
-            cpu: cpu(),
-            threads: std::thread::available_parallelism().map_or(1, usize::from),
+            system,
+            cpu,
+            threads,
             adapter: gpu.map(|gpu| {
                 serde_json::to_value(gpu.report()).expect("an adapter report is plain data")
             }),
@@ -46,8 +55,7 @@ impl Provenance {
 
     /// Whether both differ in the program alone.
     pub(crate) fn same_machine(&self, other: &Self) -> bool {
-        let machine = |p: &Self| (p.system.clone(), p.cpu.clone(), p.threads, p.adapter.clone());
-        machine(self) == machine(other)
+        self.machine == other.machine && self.adapter == other.adapter
     }
 
     /// `manylights 0.1.0 (abc123)`.

@@ -69,23 +69,13 @@ impl SceneRun<'_, '_> {
     }
 
     fn inputs(&self, variant: &Variant, turn: Turn) -> Inputs {
-        let experiment = self.session.experiment;
+        let samples =
+            |reference: &SceneReference| (reference.visibility.to_string(), reference.samples);
         Inputs {
-            scene: self.stage.scene.name.clone(),
-            scene_content: self.content.clone(),
-            method: variant.method.id().to_owned(),
-            parameters: variant.given(),
-            budget: variant.budget,
+            references: self.references.iter().map(samples).collect(),
             seed: turn.seed,
             repetition: turn.repetition,
-            transport: experiment.transport.to_string(),
-            resolution: self.stage.resolution,
-            exposure: self.stage.scene.exposure,
-            references: self
-                .references
-                .iter()
-                .map(|reference| (reference.visibility.to_string(), reference.samples))
-                .collect(),
+            ..Inputs::new(self.session.experiment, self.stage.scene, &self.content, variant)
         }
     }
 

@@ -10,12 +10,12 @@ use crate::cell::Cell;
 use crate::error::Failure;
 use crate::experiment::{Experiment, REFERENCE_SEED};
 use crate::journal::Journal;
-use crate::measure;
 use crate::plan::{Turn, interleaved};
 use crate::provenance::Provenance;
 use crate::reference::SceneReference;
 use crate::scene_run::SceneRun;
-use crate::stage::Stage;
+use crate::stage::{self, Stage};
+use crate::{measure, output};
 
 /// What all scenes of a run share.
 pub(crate) struct Session<'a> {
@@ -47,19 +47,46 @@ pub(crate) struct SceneCells {
     pub(crate) cells: Vec<(Turn, Cell)>,
 }
 
-impl Session<'_> {
-    /// Renders the references of a scene and those of its cells that are not in the journal.
+impl<'a> Session<'a> {
+    /// Opens the journal of `out` and, where a method needs it, the adapter.
+    ///
+    /// # Errors
+    /// One line where a folder cannot be written or there is no such adapter.
+    pub(crate) fn open(
+        experiment: &'a Experiment,
+        out: &'a Path,
+        cache: &'a Path,
+        adapter: Option<&str>,
+    ) -> Result<Self, Failure> {
+        output::check_directory(&out.join("cells"), "--out")?;
+        let journal = Journal::open(out)?;
+        let methods = experiment.variants.iter().map(|variant| variant.method);
+        let gpu = stage::open_gpu(methods, adapter)?;
+        let on_gpu = Provenance::here(gpu.as_ref());
+        let on_cpu = Provenance { adapter: None, ..on_gpu.clone() };
+        Ok(Self { experiment, journal, out, cache, gpu, on_gpu, on_cpu })
+    }
+
+    /// Renders the references of a scene and those cells of some variants that are not in the
+    /// journal.
     ///
     /// # Errors
     /// One line where the scene cannot be rendered or a file cannot be written. Cells that fail are
     /// recorded as such and do not stop the others.
-    pub(crate) fn scene(&mut self, scene: &Scene) -> Result<SceneCells, Failure> {
+    pub(crate) fn scene(
+        &mut self,
+        scene: &Scene,
+        variants: &[usize],
+    ) -> Result<SceneCells, Failure> {
         let experiment = self.experiment;
         let gpu = self.gpu.clone();
         let stage = Stage::new(scene, None, experiment.scale.resolution, gpu.as_ref())?;
         let references = self.references(scene, &stage)?;
+        for reference in &references {
+            reference.write(&scene.name, self.out)?;
+        }
         let scale = &experiment.scale;
-        let turns = interleaved(experiment.variants.len(), &scale.seeds, scale.repetitions);
+        let turns = interleaved(variants, &scale.seeds, scale.repetitions);
         let content = path_tracer::content_hash(scene, stage.camera);
         let amounts = vec![None; experiment.variants.len()];
         let mut run = SceneRun {

@@ -85,7 +85,8 @@ fn entries(
 ) -> Result<Vec<Entry>, Failure> {
     let variants = &experiment.variants;
     let mut entries = Vec::new();
-    for (row, variant) in answer.rows.iter().zip(variants) {
+    for row in &answer.rows {
+        let variant = &variants[row.variant];
         let last = variants.iter().rposition(|other| other.series() == variant.series());
         let (Some(medians), true) = (row.medians(), last == Some(row.variant)) else { continue };
         let path = image_path(out, &cells.scene, &medians.key).with_extension("exr");

@@ -153,7 +153,7 @@ fn check_pixels(folder: &Path, page: &str, scene: &Value, index: usize) {
         let file = match picture["reference"].as_str() {
             Some(reference) => format!("{name}-reference-{reference}.exr"),
             None => {
-                let row = &scene["rows"][picture["variant"].as_u64().expect("an index") as usize];
+                let row = &scene["rows"][picture["row"].as_u64().expect("an index") as usize];
                 format!("{name}-{}.exr", &row["cell"].as_str().expect("a key")[..16])
             }
         };
@@ -205,7 +205,7 @@ fn a_folder_without_results_is_refused() {
     let name = folder.path().to_str().expect("UTF-8");
     refused(&["report", name], "manylights run");
     std::fs::write(folder.path().join("cells.jsonl"), "").expect("writable");
-    refused(&["report", name], "cells.jsonl is empty");
+    refused(&["report", name], "no cells in cells.jsonl");
 }
 
 /// Put at the end of a copy of the page: uses it as a reader would, and says what it saw.
@@ -218,9 +218,9 @@ const columns = text('#table thead tr:last-child th');
 const seen = { ready: document.documentElement.dataset.ready, columns };
 seen.ranks = text('#table tbody td:first-child');
 sortBy('time');
-seen.byTime = [...document.querySelectorAll('#table tbody tr')].map((row) => Number(row.dataset.variant));
+seen.byTime = [...document.querySelectorAll('#table tbody tr')].map((row) => Number(row.dataset.row));
 sortBy('time');
-seen.byTimeDescending = [...document.querySelectorAll('#table tbody tr')].map((row) => Number(row.dataset.variant));
+seen.byTimeDescending = [...document.querySelectorAll('#table tbody tr')].map((row) => Number(row.dataset.row));
 seen.rows = text('#table tbody tr').length;
 key('4');
 seen.flipped = state.picture;

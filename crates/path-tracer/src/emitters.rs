@@ -19,7 +19,7 @@ pub(crate) struct EmitterPoint {
 #[derive(Debug)]
 pub(crate) struct Emitters {
     triangles: Vec<Emitter>,
-    /// Upper ends of the triangles' shares of the power; the last is 1.
+    /// Lower ends of the triangles' shares of the power.
     shares: Vec<f32>,
     /// Sum of area × mean radiance.
     power: f32,
@@ -30,35 +30,32 @@ pub(crate) struct Emitters {
 
 #[derive(Debug)]
 struct Emitter {
-    corners: [Vec3; 3],
+    corner: Vec3,
+    edges: [Vec3; 2],
     normal: Vec3,
     radiance: Vec3,
+    /// One over the share of the power.
+    scale: f32,
 }
 
 impl Emitters {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let triangles: Vec<_> = scene
-            .emissive_triangles()
-            .map(|triangle| Emitter {
-                corners: scene.corners(triangle),
-                normal: scene.geometric_normal(triangle),
-                radiance: scene.material_of(triangle).emission,
-            })
-            .collect();
-        let mut power = 0.0;
-        let running: Vec<f64> = triangles
-            .iter()
-            .map(|emitter| {
-                power += f64::from(emitter.area() * mean(emitter.radiance));
-                power
-            })
-            .collect();
-        let shares = running.iter().map(|sum| (sum / power) as f32).collect();
-        let corners = || triangles.iter().flat_map(|emitter: &Emitter| emitter.corners);
+        let mut triangles: Vec<_> =
+            scene.emissive_triangles().map(|triangle| Emitter::new(scene, triangle)).collect();
+        let powers: Vec<_> = triangles.iter().map(|emitter| f64::from(emitter.power())).collect();
+        let total: f64 = powers.iter().sum();
+        let mut below = 0.0;
+        let mut shares = Vec::with_capacity(triangles.len());
+        for (emitter, power) in triangles.iter_mut().zip(powers) {
+            shares.push((below / total) as f32);
+            emitter.scale = (total / power) as f32;
+            below += power;
+        }
+        let corners = || triangles.iter().flat_map(Emitter::corners);
         let low = corners().fold(Vec3::INFINITY, Vec3::min);
         let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
         let (center, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
-        Self { triangles, shares, power: power as f32, center, radius }
+        Self { triangles, shares, power: total as f32, center, radius }
     }
 
     /// Whether a point is so far from all of them (a diameter from their centre) that sampling them by
@@ -74,14 +71,12 @@ impl Emitters {
 
     /// A point on a triangle chosen by power, uniform on it.
     pub(crate) fn sample(&self, [u, v]: [f32; 2]) -> EmitterPoint {
-        let index = self.shares.partition_point(|&share| share <= u).min(self.shares.len() - 1);
-        let below = if index == 0 { 0.0 } else { self.shares[index - 1] };
-        let u = ((u - below) / (self.shares[index] - below)).clamp(0.0, 1.0);
+        let index = self.shares.partition_point(|&share| share <= u) - 1;
         let emitter = &self.triangles[index];
-        let [a, b, c] = emitter.corners;
+        let u = ((u - self.shares[index]) * emitter.scale).min(1.0);
         let (s, t) = square_to_triangle(u, v);
         EmitterPoint {
-            position: a + s * (b - a) + t * (c - a),
+            position: emitter.corner + s * emitter.edges[0] + t * emitter.edges[1],
             normal: emitter.normal,
             radiance: emitter.radiance,
             density: mean(emitter.radiance) / self.power,
@@ -95,9 +90,24 @@ impl Emitters {
 }
 
 impl Emitter {
-    fn area(&self) -> f32 {
-        let [a, b, c] = self.corners;
-        0.5 * (b - a).cross(c - a).length()
+    fn new(scene: &Scene, triangle: u32) -> Self {
+        let [a, b, c] = scene.corners(triangle);
+        Self {
+            corner: a,
+            edges: [b - a, c - a],
+            normal: scene.geometric_normal(triangle),
+            radiance: scene.material_of(triangle).emission,
+            scale: 1.0,
+        }
+    }
+
+    fn corners(&self) -> [Vec3; 3] {
+        [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]]
+    }
+
+    /// Area × mean radiance.
+    fn power(&self) -> f32 {
+        0.5 * self.edges[0].cross(self.edges[1]).length() * mean(self.radiance)
     }
 }
 
@@ -106,7 +116,8 @@ fn mean(radiance: Vec3) -> f32 {
 }
 
 /// The area-preserving map of low distortion of Heitz 2019, "A Low-Distortion Map Between Triangle
-/// and Square".
+/// and Square", without its branch.
 fn square_to_triangle(u: f32, v: f32) -> (f32, f32) {
-    if v > u { (0.5 * u, v - 0.5 * u) } else { (u - 0.5 * v, 0.5 * v) }
+    let half = 0.5 * u.min(v);
+    (u - half, v - half)
 }

@@ -27,6 +27,7 @@ pub(crate) struct Lobes<'a> {
 }
 
 impl<'a> Lobes<'a> {
+    #[inline]
     pub(crate) fn new(point: &'a SurfacePoint, to_viewer: Vec3) -> Self {
         Self { point, to_viewer, specular: specular_share(point, to_viewer) }
     }
@@ -112,8 +113,11 @@ impl<'a> Lobes<'a> {
 /// reflectance; zero where the viewer is below the horizon of the shading normal.
 fn specular_share(point: &SurfacePoint, to_viewer: Vec3) -> f32 {
     let SurfacePoint { normal, brdf, .. } = point;
+    if !brdf.has_specular() {
+        return 0.0;
+    }
     let n_v = normal.dot(to_viewer);
-    if n_v <= 0.0 || !brdf.has_specular() {
+    if n_v <= 0.0 {
         return 0.0;
     }
     let specular = brdf.fresnel(n_v).max_element();

@@ -10,7 +10,8 @@ pub const SLICE: u32 = 16;
 
 const SLICE_BITS: u32 = SLICE.trailing_zeros();
 
-/// The first points of the four-dimensional Sobol sequence, bits reversed for the scrambling.
+/// The first points of the four-dimensional Sobol sequence, bits reversed for the scrambling, in the
+/// order of the reversed bits of their index.
 static SOBOL: [[u32; 4]; SLICE as usize] = sobol();
 
 /// Direction numbers of Joe and Kuo 2008: degree, polynomial and initial m of dimensions 2 to 4.
@@ -31,17 +32,19 @@ impl Sampler {
         Self { seed: hash(low ^ high.rotate_left(16)) }
     }
 
-    /// Point `index` of a group: four numbers in [0, 1).
+    /// Point `index` of a group: up to four numbers in [0, 1).
     #[inline]
-    pub(crate) fn group(&self, group: u32, index: u32) -> [f32; 4] {
+    pub(crate) fn group<const AXES: usize>(&self, group: u32, index: u32) -> [f32; AXES] {
+        const { assert!(AXES <= 4, "direction numbers of four axes") };
         let seed = hash(self.seed ^ hash(group ^ 0x85eb_ca6b));
-        let top = 32 - SLICE_BITS;
-        let shuffled = permute(index.reverse_bits() >> top << top, seed).reverse_bits();
-        let point = &SOBOL[(shuffled & (SLICE - 1)) as usize];
+        // In reversed bits; the order of the points in a slice does not matter.
+        let shift = 32 - SLICE_BITS;
+        let shuffled = permute(index << shift, seed) >> shift;
+        let point = &SOBOL[(shuffled % SLICE) as usize];
         let mut axis_seed = seed;
-        point.map(|bits| {
+        std::array::from_fn(|axis| {
             axis_seed = hash(axis_seed ^ 0x5bd1_e995);
-            unit(permute(bits, axis_seed).reverse_bits())
+            unit(permute(point[axis], axis_seed).reverse_bits())
         })
     }
 
@@ -90,7 +93,8 @@ const fn sobol() -> [[u32; 4]; SLICE as usize] {
                 }
                 bit += 1;
             }
-            points[index][axis] = bits.reverse_bits();
+            let position = (index as u32).reverse_bits() >> (32 - SLICE_BITS);
+            points[position as usize][axis] = bits.reverse_bits();
             index += 1;
         }
         axis += 1;
@@ -169,7 +173,7 @@ mod tests {
             let sum: f64 = (0..n)
                 .map(|i| {
                     let index = i % SLICE;
-                    let x = Sampler::new(1, i / SLICE, 0).group(0, index)[a] - 0.5;
+                    let x = Sampler::new(1, i / SLICE, 0).group::<4>(0, index)[a] - 0.5;
                     let y = other(i / SLICE, index)[b] - 0.5;
                     f64::from(x * y)
                 })

@@ -115,8 +115,11 @@ impl Walk<'_> {
     fn path(&mut self, mut point: SurfacePoint, mut to_viewer: Vec3, index: u32) -> Vec3 {
         let tracer = self.tracer;
         let emitters = !tracer.emitters.is_empty();
-        let [u, v, ..] = self.sampler.group(GROUP_EMITTER, index);
-        let mut emitter_numbers = [u, v];
+        let mut emitter_numbers = if emitters && tracer.first == 0 {
+            self.sampler.group(GROUP_EMITTER, index)
+        } else {
+            [0.0; 2] // not used
+        };
         let mut radiance = Vec3::ZERO;
         let mut throughput = Vec3::ONE;
         for depth in 0..=tracer.last {
@@ -131,8 +134,8 @@ impl Walk<'_> {
             if depth == tracer.last && !searches {
                 break;
             }
-            let [a, b, c, d] = self.sampler.group(GROUP_BOUNCES + depth, index);
-            let Some(scatter) = lobes.sample([a, b]) else { break };
+            let (numbers, next_numbers) = self.bounce_numbers(depth, index);
+            let Some(scatter) = lobes.sample(numbers) else { break };
             if point.geometric_normal.dot(scatter.direction) <= 0.0 {
                 break;
             }
@@ -154,7 +157,7 @@ impl Walk<'_> {
             self.lit(&next, -scatter.direction, |lit| {
                 radiance += throughput * lit.radiance * beam_weight(beams, density, &next, &lit);
             });
-            (point, to_viewer, emitter_numbers) = (next, -scatter.direction, [c, d]);
+            (point, to_viewer, emitter_numbers) = (next, -scatter.direction, next_numbers);
         }
         radiance
     }
@@ -162,8 +165,8 @@ impl Walk<'_> {
     /// A path of one bounce whose last segment passes through everything.
     fn through(&mut self, point: &SurfacePoint, to_viewer: Vec3, index: u32) -> Vec3 {
         let tracer = self.tracer;
-        let [a, b, c, d] = self.sampler.group(GROUP_BOUNCES, index);
-        let Some(scatter) = Lobes::new(point, to_viewer).sample([a, b]) else { return Vec3::ZERO };
+        let (numbers, next_numbers) = self.bounce_numbers(0, index);
+        let Some(scatter) = Lobes::new(point, to_viewer).sample(numbers) else { return Vec3::ZERO };
         let mut radiance = Vec3::ZERO;
         let ray = Ray::new(self.origin(point, scatter.direction), scatter.direction);
         self.rays += 1;
@@ -175,7 +178,7 @@ impl Walk<'_> {
             });
             if !tracer.emitters.is_empty() {
                 let lobes = Lobes::new(&next, -scatter.direction);
-                radiance += self.emitter(&lobes, &next, [c, d], false);
+                radiance += self.emitter(&lobes, &next, next_numbers, false);
             }
         });
         scatter.weight * radiance
@@ -190,8 +193,7 @@ impl Walk<'_> {
         index: u32,
     ) -> Vec3 {
         let tracer = self.tracer;
-        let [a, b, c, _] = self.sampler.group(GROUP_BEAM, index);
-        let (light, ray) = beams.sample([a, b, c]);
+        let (light, ray) = beams.sample(self.sampler.group(GROUP_BEAM, index));
         self.rays += 1;
         let Some(hit) = tracer.bvh.closest(&ray) else { return Vec3::ZERO };
         let next = tracer.scene.surface(hit.triangle, hit.u, hit.v, ray.direction);
@@ -276,6 +278,17 @@ impl Walk<'_> {
                 visit(Lit { light, at, radiance });
             }
         }
+    }
+
+    /// The numbers that choose a direction at a vertex, and those for a point on an emitter as the
+    /// next vertex sees it, where there are any: stratified together.
+    fn bounce_numbers(&self, depth: u32, index: u32) -> ([f32; 2], [f32; 2]) {
+        let group = GROUP_BOUNCES + depth;
+        if self.tracer.emitters.is_empty() || depth >= self.tracer.last {
+            return (self.sampler.group(group, index), [0.0; 2]);
+        }
+        let [a, b, c, d] = self.sampler.group(group, index);
+        ([a, b], [c, d])
     }
 
     /// Russian roulette on the throughput; unbiased.

@@ -33,6 +33,7 @@ macro_rules! brdf {
             }
 
             /// Whether there is a specular lobe.
+            #[inline]
             pub fn has_specular(&self) -> bool {
                 self.f90 > 0.0 || self.f0 != glam::$vec3::ZERO
             }
@@ -51,6 +52,7 @@ macro_rules! brdf {
             /// f(v, l) in sr⁻¹, without the cosine. All directions are unit and point away from the
             /// surface. Zero for `l` below the horizon of `normal`; only the specular lobe vanishes
             /// for `v` below it: which side is visible is the geometric normal's business.
+            #[inline]
             pub fn eval(&self, normal: glam::$vec3, v: glam::$vec3, l: glam::$vec3) -> glam::$vec3 {
                 let n_l = normal.dot(l);
                 let n_v = normal.dot(v);

@@ -55,24 +55,34 @@ pub struct Hit {
 /// the coordinates (2⁻²⁴ relative), and so is the plane in the intersection test; 2⁻¹⁹ is 32 of them.
 const ORIGIN_SHIFT: f32 = 1.0 / (1 << 19) as f32;
 
+/// How much wider boxes are than their triangles, in the same units. The triangle test moves corners
+/// across the ray by up to four roundings of 2⁻²⁴ of distances up to twice the largest coordinate,
+/// for rays that start within it; a box must not lose a triangle that this moves into the ray's way.
+const BOX_MARGIN: f32 = 1.0 / (1 << 21) as f32;
+
 /// A bounding volume hierarchy. An empty scene is hit by nothing.
 ///
-/// Edges between triangles are not watertight: about one ray in a million that meets a closed mesh
-/// of small triangles passes between two of them.
+/// Watertight: no ray that starts within the bounds of the scene passes between triangles that share
+/// an edge, or all around a vertex.
 pub struct Bvh {
     wide: Wide,
     shift: f32,
+    /// The instructions that every processor of the target has: with those of this one the closures
+    /// of the walk are no longer inlined, and rays take twice the time.
+    level: Level,
 }
 
 impl Bvh {
     /// Builds the hierarchy over all triangles.
     pub fn build(scene: &Scene) -> Self {
         let (low, high) = scene.bounds();
+        let largest = low.abs().max(high.abs()).max_element();
         let triangles: Vec<_> =
             (0..scene.triangles.len() as u32).map(|t| scene.corners(t)).collect();
         Self {
-            wide: Wide::build(&triangles),
-            shift: ORIGIN_SHIFT * low.abs().max(high.abs()).max_element(),
+            wide: Wide::build(&triangles, BOX_MARGIN * largest),
+            shift: ORIGIN_SHIFT * largest,
+            level: Level::baseline(),
         }
     }
 
@@ -84,13 +94,13 @@ impl Bvh {
 
     /// The nearest hit.
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
-        dispatch!(level(), simd => self.wide.closest(simd, ray))
+        dispatch!(self.level, simd => self.wide.closest(simd, ray))
     }
 
     /// Whether there is any hit.
     pub fn occluded(&self, ray: &Ray) -> bool {
         let stop = |_| ControlFlow::Break(());
-        dispatch!(level(), simd => self.wide.each(simd, ray, stop)).is_break()
+        dispatch!(self.level, simd => self.wide.each(simd, ray, stop)).is_break()
     }
 
     /// Calls `visit` once for every triangle that is hit, in no particular order.
@@ -99,13 +109,7 @@ impl Bvh {
             visit(hit);
             ControlFlow::Continue(())
         };
-        let _: ControlFlow<()> = dispatch!(level(), simd => self.wide.each(simd, ray, &mut go_on));
+        let _: ControlFlow<()> =
+            dispatch!(self.level, simd => self.wide.each(simd, ray, &mut go_on));
     }
-}
-
-/// The instructions that every processor of the target has. AVX2 and AVX-512 were no faster on a
-/// scene that exceeds the second-level cache (`results/path-tracer`), and no result depends on the
-/// processor this way.
-fn level() -> Level {
-    Level::baseline()
 }

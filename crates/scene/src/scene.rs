@@ -85,22 +85,26 @@ impl Scene {
     }
 
     /// The three corner positions of a triangle.
+    #[inline]
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].vertices.map(|v| self.vertices[v as usize].position)
     }
 
     /// Unit normal of the plane of a triangle, on its front (counter-clockwise) side.
+    #[inline]
     pub fn geometric_normal(&self, triangle: u32) -> Vec3 {
         let [a, b, c] = self.corners(triangle);
         (b - a).cross(c - a).normalize()
     }
 
     /// Whether the material of this triangle emits.
+    #[inline]
     pub fn emits(&self, triangle: u32) -> bool {
         self.material_of(triangle).emission != Vec3::ZERO
     }
 
     /// The material of a triangle.
+    #[inline]
     pub fn material_of(&self, triangle: u32) -> &Material {
         &self.materials[self.triangles[triangle as usize].material as usize]
     }
@@ -119,6 +123,7 @@ impl Scene {
     /// barycentric coordinates (u, v): position = (1−u−v)·a + u·b + v·c.
     ///
     /// Both normals face the side from which the ray arrives (surfaces are two-sided).
+    #[inline]
     pub fn surface(&self, triangle: u32, u: f32, v: f32, arriving: Vec3) -> SurfacePoint {
         let indices = self.triangles[triangle as usize];
         let [a, b, c] = indices.vertices.map(|index| self.vertices[index as usize]);

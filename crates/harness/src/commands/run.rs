@@ -6,14 +6,16 @@ use std::path::Path;
 use manylights_scene::Scene;
 
 use crate::answer::{RowResult, SceneAnswer};
+use crate::cell::Outcome;
 use crate::cli::RunArguments;
+use crate::curves::Figure;
 use crate::error::Failure;
 use crate::experiment::{self, Experiment};
-use crate::journal::Journal;
+use crate::jobs;
 use crate::provenance::Provenance;
 use crate::report::{self, Report};
 use crate::session::{SceneCells, Session};
-use crate::{curves, layers, output, sheet, stage, table};
+use crate::{layers, output, sheet, stage, table};
 
 /// Runs an experiment, or what is left of it, and writes the answer.
 ///
@@ -24,42 +26,33 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let experiment = experiment::read(file, arguments.profile).map_err(Failure::input)?;
     let beside = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let out = arguments.out.as_deref().or(beside).unwrap_or(Path::new("."));
-    output::check_directory(&out.join("cells"), "--out")?;
+    output::check_directory(out, "--out")?;
     let cache = stage::reference_cache(arguments.cache.as_deref())?;
     let scenes = load(&experiment, arguments.machine.assets.as_deref())?;
-    let methods = experiment.variants.iter().map(|variant| variant.method);
-    let gpu = stage::open_gpu(methods, arguments.machine.adapter.as_deref())?;
-    let machine = Provenance::here(gpu.as_ref());
+    let mut session =
+        Session::open(&experiment, out, &cache, arguments.machine.adapter.as_deref())?;
     keep_experiment(file, out)?;
-    let mut session = Session {
-        experiment: &experiment,
-        journal: Journal::open(out)?,
-        out,
-        cache: &cache,
-        on_cpu: Provenance { adapter: None, ..machine.clone() },
-        on_gpu: machine.clone(),
-        gpu,
-    };
+    if let Some(key) = &arguments.cell {
+        return job(&mut session, &scenes, key);
+    }
+    let variants: Vec<usize> = (0..experiment.variants.len()).collect();
     let mut all_cells = Vec::with_capacity(scenes.len());
     let mut answers = Vec::with_capacity(scenes.len());
     for scene in &scenes {
-        let cells = session.scene(scene)?;
+        let cells = session.scene(scene, &variants)?;
         session.retire(&cells)?;
-        for reference in &cells.references {
-            reference.write(&cells.scene, out)?;
-        }
         let answer = SceneAnswer::new(&experiment, &cells, out)?;
         write_sheet(&experiment, &cells, &answer, out)?;
         layers::write(&experiment, scene, &cells, &answer, [&cache, out])?;
         all_cells.push(cells);
         answers.push(answer);
     }
-    write_answer(&experiment, &answers, &machine, out)?;
+    write_answer(&experiment, &answers, &session.on_gpu, out)?;
     Report {
         experiment: &experiment,
         cells: &all_cells,
         answers: &answers,
-        machine: &machine,
+        machine: &session.on_gpu,
         command: report::command(file, &experiment, arguments.out.as_deref()),
     }
     .write(out)?;
@@ -76,7 +69,26 @@ fn keep_experiment(file: &Path, out: &Path) -> Result<(), Failure> {
     output::write(&kept, &text)
 }
 
-fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec<Scene>, Failure> {
+/// Runs the cells of one line of `plan`.
+fn job(session: &mut Session<'_>, scenes: &[Scene], key: &str) -> Result<(), Failure> {
+    let jobs = jobs::of_experiment(session.experiment, scenes)?;
+    let job = jobs.iter().find(|job| job.key == key).ok_or_else(|| {
+        Failure::input(format!("--cell {key}: not a key of this experiment; see manylights plan"))
+    })?;
+    let cells = session.scene(&scenes[job.scene], &[job.variant])?;
+    session.retire(&cells)?;
+    let failed = cells.cells.iter().find_map(|(_, cell)| match &cell.outcome {
+        Outcome::Failed { reason } => Some(reason),
+        _ => None,
+    });
+    failed.map_or(Ok(()), |reason| Err(Failure::Failed(format!("{}: {reason}", job.label))))
+}
+
+/// The scenes of an experiment, at its exposures.
+///
+/// # Errors
+/// One line where a scene cannot be loaded or is listed twice.
+pub(crate) fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec<Scene>, Failure> {
     let mut names = BTreeSet::new();
     let mut scenes = Vec::with_capacity(experiment.scenes.len());
     for what in &experiment.scenes {
@@ -110,14 +122,17 @@ fn write_answer(
     out: &Path,
 ) -> Result<(), Failure> {
     let markdown = table::markdown(experiment, answers, machine);
+    let figure = Figure::new(experiment, answers);
     let files = [
-        ("table.md", markdown),
-        ("table.csv", table::csv(experiment, answers)),
-        ("curves.svg", curves::svg(experiment, answers)?),
+        ("table.md", markdown.into_bytes()),
+        ("table.tex", table::latex(experiment, answers, machine).into_bytes()),
+        ("table.csv", table::csv(experiment, answers).into_bytes()),
+        ("curves.svg", figure.svg()?.into_bytes()),
+        ("curves.png", figure.png()?),
     ];
-    for (name, text) in files {
+    for (name, bytes) in files {
         let path = out.join(name);
-        output::write(&path, text.as_bytes())?;
+        output::write(&path, &bytes)?;
         eprintln!("{}", path.display());
     }
     for answer in answers {

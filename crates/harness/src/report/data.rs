@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::Report;
 use super::pictures::{Picture, Pictures};
-use crate::answer::{Medians, Row, RowResult, SceneAnswer};
+use crate::answer::{Medians, RowResult, SceneAnswer};
 use crate::cell::Cell;
 use crate::crops;
 use crate::experiment::Experiment;
@@ -74,7 +74,7 @@ fn scene(
         "floors": names.iter().filter_map(floor).collect::<serde_json::Map<_, _>>(),
         "crops": crops.collect::<Vec<_>>(),
         "pictures": pictures.list.iter().map(picture).collect::<Vec<_>>(),
-        "rows": answer.rows.iter().map(|r| row(experiment, answer, r, &names)).collect::<Vec<_>>(),
+        "rows": (0..answer.rows.len()).map(|index| row(answer, index, &names)).collect::<Vec<_>>(),
     })
 }
 
@@ -84,37 +84,33 @@ fn picture(picture: &Picture<'_>) -> Value {
             "reference": reference.visibility.to_string(),
             "samples": reference.samples,
         }),
-        Picture::Variant(variant, _) => json!({ "variant": variant }),
+        Picture::Row(row, _) => json!({ "row": row }),
     }
 }
 
-fn row(experiment: &Experiment, answer: &SceneAnswer, row: &Row, names: &[String]) -> Value {
+fn row(answer: &SceneAnswer, index: usize, names: &[String]) -> Value {
+    let row = &answer.rows[index];
     match &row.result {
-        RowResult::Done(medians) => done(experiment, answer, row, medians, names),
+        RowResult::Done(medians) => done(answer, index, medians, names),
         RowResult::Declined(reason) => {
-            json!({ "variant": row.variant, "outcome": "declined", "reason": reason })
+            json!({ "variant": row.variant, "machine": row.machine, "outcome": "declined", "reason": reason })
         }
         RowResult::Failed(reason) => {
-            json!({ "variant": row.variant, "outcome": "failed", "reason": reason })
+            json!({ "variant": row.variant, "machine": row.machine, "outcome": "failed", "reason": reason })
         }
     }
 }
 
-fn done(
-    experiment: &Experiment,
-    answer: &SceneAnswer,
-    row: &Row,
-    medians: &Medians,
-    names: &[String],
-) -> Value {
+fn done(answer: &SceneAnswer, index: usize, medians: &Medians, names: &[String]) -> Value {
+    let row = &answer.rows[index];
     let against = |name: &String| {
         let errors = medians.errors.get(name)?;
-        let rank = answer.ranks(name)[row.variant];
+        let rank = answer.ranks(name)[index];
         let bias = medians.bias.get(name);
         let value = json!({
             "rank": rank.map(|rank| rank.place),
             "rank_shared": rank.map(|rank| rank.shared),
-            "differs_from_baseline": answer.differs(row.variant, experiment.baseline, name),
+            "differs_from_baseline": answer.differs(row, name),
             "linear": errors.linear,
             "display": errors.display,
             "bias": bias.map(|bias| bias.bias),
@@ -126,6 +122,7 @@ fn done(
     let seconds = medians.seconds;
     json!({
         "variant": row.variant,
+        "machine": row.machine,
         "outcome": "done",
         "cell": medians.key,
         "amount": medians.amount,

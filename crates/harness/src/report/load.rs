@@ -9,7 +9,7 @@ use manylights_method::Visibility;
 use crate::cell::{Cell, Outcome};
 use crate::error::Failure;
 use crate::experiment::{self, Experiment, Profile};
-use crate::journal::Journal;
+use crate::journal;
 use crate::plan::Turn;
 use crate::provenance::Provenance;
 use crate::reference::SceneReference;
@@ -38,26 +38,26 @@ pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
             file.display()
         ))
     };
-    if !directory.join("cells.jsonl").is_file() {
-        return Err(refuse("no cells.jsonl"));
+    let journal::Contents { cells, problems } = journal::read(&directory.join("cells.jsonl"))?;
+    for problem in problems {
+        eprintln!("{problem}; left out");
     }
-    let journal = Journal::open(directory)?;
-    let last = journal.cells().next_back().ok_or_else(|| refuse("cells.jsonl is empty"))?;
+    let last = cells.last().ok_or_else(|| refuse("there are no cells in cells.jsonl"))?;
     let experiment = profile_of(last, &file)?
         .ok_or_else(|| refuse("the last cell is of another experiment or profile"))?;
-    let here = |cell: &&Cell| same_host(&cell.provenance, &last.provenance);
-    let mut scenes: Vec<(String, BTreeMap<Key, &Cell>)> = Vec::new();
-    for cell in journal.cells().filter(here) {
+    let mut scenes: Vec<(&str, BTreeMap<Key<'_>, &Cell>)> = Vec::new();
+    for cell in &cells {
         let Some(turn) = turn_of(cell, &experiment) else { continue };
-        let name = &cell.inputs.scene;
-        let index = scenes.iter().position(|(scene, _)| scene == name).unwrap_or_else(|| {
-            scenes.push((name.clone(), BTreeMap::new()));
+        let name = cell.inputs.scene.as_str();
+        let index = scenes.iter().position(|(scene, _)| *scene == name).unwrap_or_else(|| {
+            scenes.push((name, BTreeMap::new()));
             scenes.len() - 1
         });
+        let machine = cell.provenance.machine.as_str();
         // The later cell counts: that of a newer build.
-        scenes[index].1.insert((turn.repetition, turn.seed, turn.variant), cell);
+        scenes[index].1.insert((turn.repetition, turn.seed, turn.variant, machine), cell);
     }
-    let on_adapter = journal.cells().filter(here).rfind(|cell| cell.provenance.adapter.is_some());
+    let on_adapter = cells.iter().rfind(|cell| cell.provenance.adapter.is_some());
     let machine = on_adapter.unwrap_or(last).provenance.clone();
     let scenes = scenes
         .into_iter()
@@ -66,13 +66,8 @@ pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
     Ok(Loaded { experiment, scenes, machine })
 }
 
-/// Repetition, seed, variant: the order of a run.
-type Key = (u32, u64, usize);
-
-/// Times of two hosts are never compared.
-fn same_host(a: &Provenance, b: &Provenance) -> bool {
-    (&a.system, &a.cpu, a.threads) == (&b.system, &b.cpu, b.threads)
-}
+/// Repetition, seed, variant, machine: the order of a run.
+type Key<'c> = (u32, u64, usize, &'c str);
 
 /// The experiment in the profile that asks for `cell`.
 fn profile_of(cell: &Cell, file: &Path) -> Result<Option<Experiment>, Failure> {
@@ -112,8 +107,8 @@ fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
 
 fn scene_cells(
     experiment: &Experiment,
-    scene: String,
-    cells: &BTreeMap<Key, &Cell>,
+    scene: &str,
+    cells: &BTreeMap<Key<'_>, &Cell>,
     directory: &Path,
 ) -> Result<SceneCells, Failure> {
     let done = cells.values().find_map(|cell| match &cell.outcome {
@@ -125,13 +120,13 @@ fn scene_cells(
         let comparison = done.and_then(|done| done.errors.get(&visibility.to_string()));
         SceneReference::read(visibility, inputs, comparison, directory)
     };
-    let turn = |(&(repetition, seed, variant), &cell): (&Key, &&Cell)| {
+    let turn = |(&(repetition, seed, variant, _), &cell): (&Key<'_>, &&Cell)| {
         (Turn { variant, seed, repetition }, cell.clone())
     };
     Ok(SceneCells {
         exposure: inputs.exposure,
         references: experiment.references.iter().map(reference).collect::<Result<_, _>>()?,
         cells: cells.iter().map(turn).collect(),
-        scene,
+        scene: scene.to_owned(),
     })
 }

@@ -14,11 +14,12 @@ use std::path::Path;
 use manylights_metrics::{METRICS, RadianceImage, false_color};
 
 use crate::answer::SceneAnswer;
+use crate::curves::Figure;
 use crate::error::Failure;
 use crate::experiment::Experiment;
 use crate::provenance::Provenance;
 use crate::session::SceneCells;
-use crate::{curves, output, table};
+use crate::{output, table};
 use pictures::Pictures;
 
 pub(crate) use load::{Loaded, load};
@@ -71,7 +72,7 @@ impl Report<'_> {
             .collect::<Result<_, _>>()?;
         let csv = table::csv(self.experiment, self.answers);
         let data = data::data(self, &pictures, csv).to_string();
-        let curves = curves::svg(self.experiment, self.answers)?;
+        let curves = Figure::new(self.experiment, self.answers).svg()?;
         // Part of an HTML document, an SVG needs no name of its language.
         let curves = curves.replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
         Ok(fill(

@@ -19,15 +19,15 @@ const BUDGET: usize = 32 << 20;
 pub(super) enum Picture<'a> {
     /// Of the path tracer.
     Reference(&'a SceneReference),
-    /// Index into the experiment's variants; its first seed.
-    Variant(usize, RadianceImage),
+    /// Index into the rows of the answer; the first seed.
+    Row(usize, RadianceImage),
 }
 
 impl Picture<'_> {
     fn image(&self) -> &RadianceImage {
         match self {
             Self::Reference(reference) => &reference.image,
-            Self::Variant(_, image) => image,
+            Self::Row(_, image) => image,
         }
     }
 }
@@ -59,21 +59,22 @@ impl<'a> Pictures<'a> {
     ) -> Result<Self, Failure> {
         let references = &cells.references;
         let variants = &experiment.variants;
-        let done = answer.rows.iter().filter_map(|row| Some((row.variant, row.medians()?)));
-        let mut done: Vec<_> = done.collect();
+        let rows = answer.rows.iter().enumerate();
+        let mut done: Vec<_> =
+            rows.filter_map(|(index, row)| Some((index, row.variant, row.medians()?))).collect();
         let all = done.len();
         let count = scenes * (references.len() + all);
         if count * pixels::length(&references[0].image) > BUDGET {
-            done.retain(|&(variant, _)| {
+            done.retain(|&(_, variant, _)| {
                 let series = variants[variant].series();
                 variants[variant + 1..].iter().all(|later| later.series() != series)
             });
         }
         let mut list: Vec<_> = references.iter().map(Picture::Reference).collect();
-        for &(variant, medians) in &done {
+        for &(index, _, medians) in &done {
             let path = image_path(out, &cells.scene, &medians.key).with_extension("exr");
             let image = RadianceImage::read_exr(&path).map_err(Failure::input)?;
-            list.push(Picture::Variant(variant, image));
+            list.push(Picture::Row(index, image));
         }
         let images: Vec<_> = list[references.len()..].iter().map(Picture::image).collect();
         let error_scale = error_scale(&images, references);

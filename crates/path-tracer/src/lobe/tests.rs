@@ -102,7 +102,7 @@ fn samples_follow_the_density() {
         let mut found = vec![0.0; expected.len()];
         for index in 0..count {
             // One point of each randomisation: independent samples.
-            let [u, v, ..] = Sampler::new(9, index, 0).group(0, index % SLICE);
+            let [u, v] = Sampler::new(9, index, 0).group(0, index % SLICE);
             found[cell(point.normal, draw(&lobes, [u, v]))] += 1.0;
         }
         let count = f64::from(count);
@@ -153,7 +153,7 @@ fn mean_weights_are_the_albedo() {
         let count = 100_000;
         let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
         for index in 0..count {
-            let [u, v, ..] = Sampler::new(4, index, 0).group(0, index % SLICE);
+            let [u, v] = Sampler::new(4, index, 0).group(0, index % SLICE);
             let weight = lobes.sample([u, v]).map_or(Vec3::ZERO, |scatter| {
                 assert!((scatter.direction.length() - 1.0).abs() < 1e-5);
                 let density = lobes.density(scatter.direction);

@@ -83,7 +83,9 @@ impl Wide {
                 Target::Node(index) => {
                     let node = &self.nodes[index];
                     let (mask, _) = lanes.node(node, ray.t_max);
-                    stack.extend(Set(mask).map(|lane| node.children[lane % WIDTH]));
+                    for lane in Set(mask) {
+                        stack.push(node.children[lane % WIDTH]);
+                    }
                 }
                 Target::Blocks(range) => {
                     for block in &self.blocks[range] {
@@ -145,8 +147,12 @@ struct Lanes<S: Simd> {
     /// Index of the plane of each axis that the ray meets first.
     near: [usize; 3],
     t_min: f32x8<S>,
+    /// The axes in the order of the triangle test: the last is the ray's longest.
+    axes: [usize; 3],
+    /// Of those axes.
     origin: [f32x4<S>; 3],
-    direction: [f32x4<S>; 3],
+    /// x and y of the direction over its z, and one over its z.
+    shear: [f32x4<S>; 3],
 }
 
 impl<S: Simd> Lanes<S> {
@@ -155,14 +161,19 @@ impl<S: Simd> Lanes<S> {
         let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
         let inverse =
             direction.map(|d| if d.abs() < SMALLEST { SMALLEST.copysign(d) } else { d }.recip());
+        let longest = ray.direction.abs().max_position();
+        let axes = [(longest + 1) % 3, (longest + 2) % 3, longest];
+        let along = direction[longest];
+        let shear = [direction[axes[0]] / along, direction[axes[1]] / along, along.recip()];
         Self {
             simd,
             inverse: inverse.map(|value| f32x8::splat(simd, value)),
             box_origin: origin.map(|value| f32x8::splat(simd, value)),
             near: std::array::from_fn(|axis| 2 * axis + usize::from(inverse[axis] < 0.0)),
             t_min: f32x8::splat(simd, ray.t_min),
-            origin: origin.map(|value| f32x4::splat(simd, value)),
-            direction: direction.map(|value| f32x4::splat(simd, value)),
+            axes,
+            origin: axes.map(|axis| f32x4::splat(simd, origin[axis])),
+            shear: shear.map(|value| f32x4::splat(simd, value)),
         }
     }
 
@@ -180,8 +191,12 @@ impl<S: Simd> Lanes<S> {
         (near.simd_le(far).to_bitmask() as u32, near.to_array())
     }
 
-    /// Visits the hits of four triangles: the test of Möller and Trumbore 1997 with the normal as the
-    /// first product, all numerators scaled by the sign of the determinant.
+    /// Visits the hits of four triangles: the watertight test of Woop, Benthin and Wald 2013
+    /// ("Watertight Ray/Triangle Intersection", JCGT 2(1)). Corners are sheared so that the ray runs
+    /// along z, each alike for all triangles that share it, and edges are tested in that plane.
+    ///
+    /// Their second look in double precision at edges that come out as zero is left out: such an edge
+    /// counts as met on both of its sides, which opens no gap, for rounding never turns a sign.
     #[inline(always)]
     fn block<B>(
         &self,
@@ -191,22 +206,21 @@ impl<S: Simd> Lanes<S> {
         mut visit: impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
         let simd = self.simd;
-        let load = |axes: &[[f32; PACK]; 3]| {
-            axes.each_ref().map(|lanes| f32x4::load_array_ref(simd, lanes))
-        };
         let splat = |value| f32x4::splat(simd, value);
-        let (corner, from_b, to_c) = (load(&block.corner), load(&block.from_b), load(&block.to_c));
-        let normal = cross(from_b, to_c);
-        let offset = std::array::from_fn(|axis| corner[axis] - self.origin[axis]);
-        let turned = cross(self.direction, offset);
-        let determinant = dot(normal, self.direction);
-        let sign = splat(1.0).copysign(determinant);
-        let scale = determinant * sign;
-        let u = dot(turned, to_c) * sign;
-        let v = dot(turned, from_b) * sign;
-        let t = dot(normal, offset) * sign;
+        let sheared = |corner: &[[f32; PACK]; 3]| {
+            let [x, y, z] = std::array::from_fn(|i| {
+                f32x4::load_array_ref(simd, &corner[self.axes[i] % 3]) - self.origin[i]
+            });
+            [x - self.shear[0] * z, y - self.shear[1] * z, z]
+        };
+        let [a, b, c] = block.corners.each_ref().map(sheared);
+        let (at_a, at_b, at_c) = (edge(c, b), edge(a, c), edge(b, a));
+        let sum = at_a + at_b + at_c;
+        let sign = splat(1.0).copysign(sum);
+        let (scale, u, v) = (sum * sign, at_b * sign, at_c * sign);
+        let t = (at_a * a[2] + at_b * b[2] + at_c * c[2]) * sign * self.shear[2];
         let zero = splat(0.0);
-        let inside = u.min(v).min(scale - u - v).simd_ge(zero) & scale.simd_gt(zero);
+        let inside = (at_a * sign).min(u).min(v).simd_ge(zero) & scale.simd_gt(zero);
         let within = t.simd_gt(scale * splat(t_min)) & t.simd_le(scale * splat(t_max));
         let mask = (inside & within).to_bitmask() as u32;
         if mask == 0 {
@@ -223,13 +237,9 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
+/// Twice the signed area between the ray and an edge, in the plane across the ray; exactly the
+/// negative of that of the edge the other way round.
 #[inline(always)]
-fn cross<S: Simd>(a: [f32x4<S>; 3], b: [f32x4<S>; 3]) -> [f32x4<S>; 3] {
-    let component = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
-    [component(1, 2), component(2, 0), component(0, 1)]
-}
-
-#[inline(always)]
-fn dot<S: Simd>(a: [f32x4<S>; 3], b: [f32x4<S>; 3]) -> f32x4<S> {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+fn edge<S: Simd>(from: [f32x4<S>; 3], to: [f32x4<S>; 3]) -> f32x4<S> {
+    from[0] * to[1] - from[1] * to[0]
 }

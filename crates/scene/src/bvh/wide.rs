@@ -43,16 +43,11 @@ pub(super) struct Node {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Child(u32);
 
-/// Four triangles, as the intersection test wants them: `[axis][lane]`. Unused lanes are degenerate.
+/// Four triangles, as the intersection test wants them: `[corner][axis][lane]`. Unused lanes are degenerate.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(super) struct Block {
-    /// Vertex a.
-    pub(super) corner: [[f32; PACK]; 3],
-    /// a − b.
-    pub(super) from_b: [[f32; PACK]; 3],
-    /// c − a.
-    pub(super) to_c: [[f32; PACK]; 3],
+    pub(super) corners: [[[f32; PACK]; 3]; 3],
     pub(super) triangles: [u32; PACK],
 }
 
@@ -97,7 +92,8 @@ impl Child {
 }
 
 impl Wide {
-    pub(super) fn build(triangles: &[[Vec3; 3]]) -> Self {
+    /// Boxes are wider than their triangles by `margin` on each side.
+    pub(super) fn build(triangles: &[[Vec3; 3]], margin: f32) -> Self {
         if triangles.is_empty() {
             return Self::default();
         }
@@ -115,8 +111,8 @@ impl Wide {
             for (lane, index) in children(&binary, root).into_iter().enumerate() {
                 let child = &binary.nodes[index];
                 for axis in 0..3 {
-                    node.planes[2 * axis][lane] = child.aabb().min[axis];
-                    node.planes[2 * axis + 1][lane] = child.aabb().max[axis];
+                    node.planes[2 * axis][lane] = child.aabb().min[axis] - margin;
+                    node.planes[2 * axis + 1][lane] = child.aabb().max[axis] + margin;
                 }
                 node.children[lane] = if child.is_leaf() {
                     let first = child.first_index as usize;
@@ -149,15 +145,12 @@ impl Node {
 
 impl Block {
     fn new(triangles: &[[Vec3; 3]], members: &[u32]) -> Self {
-        let zero = [[0.0; PACK]; 3];
-        let mut block = Self { corner: zero, from_b: zero, to_c: zero, triangles: [0; PACK] };
+        let mut block = Self { corners: [[[0.0; PACK]; 3]; 3], triangles: [0; PACK] };
         for (lane, &triangle) in members.iter().enumerate() {
-            let [a, b, c] = triangles[triangle as usize];
-            let (from_b, to_c) = (a - b, c - a);
-            for axis in 0..3 {
-                block.corner[axis][lane] = a[axis];
-                block.from_b[axis][lane] = from_b[axis];
-                block.to_c[axis][lane] = to_c[axis];
+            for (target, corner) in block.corners.iter_mut().zip(triangles[triangle as usize]) {
+                for axis in 0..3 {
+                    target[axis][lane] = corner[axis];
+                }
             }
             block.triangles[lane] = triangle;
         }

@@ -29,11 +29,17 @@ function change(values) {
 const scene = () => data.scenes[state.scene];
 const referenceName = () => data.references[state.reference];
 const errorScale = () => scene().error_scale * 2 ** state.octaves;
-const rowOf = (picture) => scene().rows.find((row) => row.variant === picture.variant);
+const rowOf = (picture) => scene().rows[picture.row];
+const variantOf = (row) => data.variants[row.variant];
+/** Whether rows are told apart by their machine. */
+const severalMachines = () => new Set(scene().rows.map(({ machine }) => machine)).size > 1;
 
 /** Name of a picture: that of its method and settings, or of the reference. */
 function label(picture) {
-  return picture.reference ? `reference, ${picture.reference}` : data.variants[picture.variant].label;
+  return picture.reference ? `reference, ${picture.reference}` : rowLabel(rowOf(picture));
+}
+function rowLabel(row) {
+  return variantOf(row).label + (severalMachines() ? ` @${row.machine}` : '');
 }
 
 /** Three significant digits, without an exponent where that is short. */

@@ -13,7 +13,7 @@ function drawChips() {
   element('chips').replaceChildren(...scene().pictures.map((picture, index) => {
     const chip = make('button', { type: 'button', 'aria-pressed': 'false' }, make('kbd', {}, String(index + 1)));
     if (!picture.reference) {
-      chip.append(make('span', { class: 'swatch', style: `background:${data.variants[picture.variant].color}` }));
+      chip.append(make('span', { class: 'swatch', style: `background:${variantOf(rowOf(picture)).color}` }));
     }
     chip.append(label(picture));
     chip.addEventListener('click', () => change({ picture: index }));

@@ -1,8 +1,7 @@
 // The table of a scene against a reference.
-const baseline = () => {
-  const row = scene().rows.find((candidate) => candidate.variant === data.baseline);
-  return row.outcome === 'done' ? row : null;
-};
+/** What a row is compared with: the baseline on the same machine. */
+const baseline = (row) => scene().rows.find(({ variant, machine, outcome }) => (
+  variant === data.baseline && machine === row.machine && outcome === 'done'));
 const errorsOf = (row) => row.errors[referenceName()];
 const over = (value, base) => (base ? value / base : null);
 const counts = (row) => Object.entries(row.counters).map(([name, count]) => `${count} ${name}`).join(', ');
@@ -21,12 +20,12 @@ const GROUPS = [
     { id: 'time', title: 'median', value: (row) => 1e3 * row.seconds },
     { id: 'quartiles', title: 'quartiles', value: (row) => row.seconds_upper - row.seconds_lower, text: (row) => `${short(1e3 * row.seconds_lower)}–${short(1e3 * row.seconds_upper)}` },
     { id: 'runs', title: 'n', value: (row) => row.runs, text: (row) => String(row.runs) },
-    { id: 'time_ratio', title: '÷ base', value: (row) => over(row.seconds, baseline()?.seconds) },
+    { id: 'time_ratio', title: '÷ base', value: (row) => over(row.seconds, baseline(row)?.seconds) },
     { id: 'prepare', title: 'preparation', value: (row) => 1e3 * row.prepare_seconds },
   ]],
   ['error of sRGB values', [
     { id: 'rmse', title: 'RMSE', value: (row) => errorsOf(row).display.rmse, best: Math.min },
-    { id: 'rmse_ratio', title: '÷ base', value: (row) => over(errorsOf(row).display.rmse, baseline() && errorsOf(baseline()).display.rmse),
+    { id: 'rmse_ratio', title: '÷ base', value: (row) => over(errorsOf(row).display.rmse, baseline(row) && errorsOf(baseline(row)).display.rmse),
       text: (row, value) => short(value) + (errorsOf(row).differs_from_baseline === false && row.variant !== data.baseline ? ' ≈' : '') },
     { id: 'bias', title: 'bias', value: (row) => errorsOf(row).bias, optional: true },
     { id: 'deviation', title: 'deviation', value: (row) => errorsOf(row).deviation, optional: true },
@@ -85,23 +84,24 @@ function sorted(columns) {
 }
 
 function methodCell(row, picture) {
-  const variant = data.variants[row.variant];
+  const variant = variantOf(row);
   const swatch = make('span', { class: 'swatch', style: `background:${variant.color}`, 'aria-hidden': 'true' });
   const mark = row.variant === data.baseline ? ' ●' : '';
   const cell = make('th', { scope: 'row', class: 'method row', title: variant.title });
   if (picture < 0) {
-    cell.append(swatch, variant.label + mark);
+    cell.append(swatch, rowLabel(row) + mark);
     return cell;
   }
-  const button = make('button', { type: 'button' }, swatch, variant.label + mark);
+  const button = make('button', { type: 'button' }, swatch, rowLabel(row) + mark);
   button.addEventListener('click', () => change({ picture }));
   cell.append(button);
   return cell;
 }
 
 function bodyRow(row, columns, starts, done) {
-  const picture = scene().pictures.findIndex((candidate) => candidate.variant === row.variant);
-  const line = make('tr', { 'data-variant': row.variant, class: picture >= 0 && picture === state.picture ? 'on' : '' });
+  const index = scene().rows.indexOf(row);
+  const picture = scene().pictures.findIndex((candidate) => candidate.row === index);
+  const line = make('tr', { 'data-row': index, class: picture >= 0 && picture === state.picture ? 'on' : '' });
   if (row.outcome !== 'done') {
     line.append(make('td'), methodCell(row, -1), make('td', { class: 'text start', colspan: columns.length - 2 }, `${row.outcome}: ${row.reason}`));
     return line;

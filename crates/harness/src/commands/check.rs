@@ -1,0 +1,115 @@
+//! `manylights check`.
+
+use std::path::Path;
+
+use crate::cell::{Cell, Outcome};
+use crate::cli::CheckArguments;
+use crate::commands::run;
+use crate::error::Failure;
+use crate::experiment::{self, Experiment, Profile};
+use crate::journal;
+use crate::output::{self, print_json};
+use crate::regression::{self, Moved};
+use crate::session::Session;
+use crate::statistics::median;
+
+/// Runs the quick profile of the baseline's experiment afresh and compares. With `--bless`, what came
+/// out becomes the baseline.
+///
+/// # Errors
+/// One line: bad input; or something moved, after a table of it.
+pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+    let directory = &arguments.baseline;
+    let file = directory.join("experiment.toml");
+    let experiment = experiment::read(&file, Profile::Quick).map_err(Failure::input)?;
+    let path = directory.join("cells.jsonl");
+    let journal::Contents { cells: baseline, problems } = journal::read(&path)?;
+    if let Some(problem) = problems.first().filter(|_| !arguments.bless) {
+        return Err(Failure::input(format!("{problem}: restore it, or bless with --bless")));
+    }
+    if baseline.is_empty() && !arguments.bless {
+        let place = path.display();
+        return Err(Failure::input(format!("{place}: no baseline: make one with --bless")));
+    }
+    // References too are made afresh: those of a cache are from before the change.
+    let fresh = tempfile::tempdir().map_err(Failure::input)?;
+    let cells = measure(&experiment, fresh.path(), arguments)?;
+    if arguments.bless {
+        let lines: String = cells.iter().map(journal::line).collect();
+        output::write(&path, lines.as_bytes())?;
+        eprintln!("{}: {} cells are the new baseline", path.display(), cells.len());
+        return Ok(());
+    }
+    let moved = regression::compare(&baseline, &cells);
+    report_times(&baseline, &cells);
+    if arguments.json {
+        print_json(&serde_json::to_value(&moved).expect("plain data"))?;
+    }
+    if moved.is_empty() {
+        eprintln!("nothing moved: {} cells", cells.len());
+        return Ok(());
+    }
+    print_table(&moved);
+    Err(Failure::Failed(format!(
+        "{} quantities moved; where that is meant: manylights check --baseline {} --bless",
+        moved.len(),
+        directory.display()
+    )))
+}
+
+fn measure(
+    experiment: &Experiment,
+    out: &Path,
+    arguments: &CheckArguments,
+) -> Result<Vec<Cell>, Failure> {
+    let machine = &arguments.machine;
+    let scenes = run::load(experiment, machine.assets.as_deref())?;
+    let cache = out.join("references");
+    output::check_directory(&cache, "TMPDIR")?;
+    let mut session = Session::open(experiment, out, &cache, machine.adapter.as_deref())?;
+    let variants: Vec<usize> = (0..experiment.variants.len()).collect();
+    let mut cells = Vec::new();
+    for scene in &scenes {
+        cells.extend(session.scene(scene, &variants)?.cells.into_iter().map(|(_, cell)| cell));
+    }
+    Ok(cells)
+}
+
+fn print_table(moved: &[Moved]) {
+    let head = ["cell", "quantity", "baseline", "now", "why it counts"].map(str::to_owned);
+    let rows: Vec<[String; 5]> = std::iter::once(head)
+        .chain(moved.iter().cloned().map(|m| [m.cell, m.quantity, m.before, m.now, m.why]))
+        .collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
+    let widths: Vec<usize> = (0..5).map(|column| width(column).unwrap_or(0)).collect();
+    for row in &rows {
+        let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}"));
+        eprintln!("{}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+}
+
+/// For information alone: times decide nothing.
+fn report_times(before: &[Cell], now: &[Cell]) {
+    let same = before.iter().zip(now).all(|(a, b)| a.provenance.machine == b.provenance.machine);
+    if !same {
+        eprintln!("times: the baseline is another machine's, so they are not compared");
+        return;
+    }
+    let seconds = |cell: &Cell| match &cell.outcome {
+        Outcome::Done(done) => Some(done.step_seconds),
+        _ => None,
+    };
+    let pairs = before.iter().filter_map(|old| {
+        let alike = |new: &&Cell| {
+            let labels = new.inputs.label() == old.inputs.label();
+            let (a, b) = (&new.inputs, &old.inputs);
+            labels && (&a.scene, a.seed, a.repetition) == (&b.scene, b.seed, b.repetition)
+        };
+        Some(seconds(now.iter().find(alike)?)? / seconds(old)?)
+    });
+    if let Some(ratio) = median(pairs) {
+        eprintln!(
+            "times: {ratio:.2} times the baseline's (median; for information, decides nothing)"
+        );
+    }
+}

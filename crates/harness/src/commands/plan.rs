@@ -1,0 +1,39 @@
+//! `manylights plan`.
+
+use serde_json::json;
+
+use crate::cli::PlanArguments;
+use crate::commands::run;
+use crate::error::Failure;
+use crate::output::print_json;
+use crate::{experiment, jobs};
+
+/// Lists the jobs of an experiment, for `run --cell` on other machines.
+///
+/// # Errors
+/// One line for bad input.
+pub(crate) fn run(arguments: &PlanArguments) -> Result<(), Failure> {
+    let experiment = experiment::read(&arguments.experiment, arguments.profile);
+    let experiment = experiment.map_err(Failure::input)?;
+    let scenes = run::load(&experiment, arguments.assets.as_deref())?;
+    let jobs = jobs::of_experiment(&experiment, &scenes)?;
+    let cells = experiment.scale.seeds.len() * experiment.scale.repetitions as usize;
+    if !arguments.json {
+        for job in &jobs {
+            eprintln!("{} {} ({cells} runs)", &job.key[..16], job.label);
+        }
+        return Ok(());
+    }
+    let line = |job: &jobs::Job| {
+        let variant = &experiment.variants[job.variant];
+        json!({
+            "key": job.key,
+            "scene": scenes[job.scene].name,
+            "method": variant.method.id(),
+            "label": job.label,
+            "budget": variant.budget,
+            "runs": cells,
+        })
+    };
+    print_json(&jobs.iter().map(line).collect())
+}

@@ -1,0 +1,196 @@
+//! The bench: time budgets, jobs for other machines, regression check, exports.
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use common::{json, manylights, refused, succeeded};
+use serde_json::Value;
+
+const EXPERIMENT: &str = r#"
+title = "Test"
+question = "Does it run?"
+scenes = ["cornell", "trio"]
+transport = "indirect-1"
+references = ["traced"]
+errors = [0.2, 1e-9]
+[[methods]]
+id = "reference"
+parameters = { samples = [16, 64] }
+[[methods]]
+id = "reference"
+budget = "time"
+[[published]]
+source = "nobody"
+scene = "trio"
+method = { id = "reference", parameters = { samples = 16 } }
+reference = "traced"
+metric = "psnr"
+value = 20.0
+[profiles.quick]
+resolution = [24, 16]
+reference_samples = 64
+repetitions = 2
+seeds = [1, 2]
+times = [0.02, "baseline"]
+"#;
+
+/// A folder with an experiment, and what the command line says of it.
+struct Place {
+    folder: tempfile::TempDir,
+}
+
+impl Place {
+    fn new(experiment: &str) -> Self {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        std::fs::write(folder.path().join("experiment.toml"), experiment).expect("writable");
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.folder.path().join(name).to_str().expect("UTF-8").to_owned()
+    }
+
+    fn run(&self, out: &str, more: &[&str]) {
+        let (file, out, cache) = (self.path("experiment.toml"), self.path(out), self.path("cache"));
+        let start = ["run", &file, "--profile", "quick", "--out", &out, "--cache", &cache];
+        succeeded(&manylights(&[&start[..], more].concat()));
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).expect(name)
+    }
+
+    fn cells(&self, out: &str) -> Vec<Value> {
+        let text = self.read(&format!("{out}/cells.jsonl"));
+        text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
+    }
+}
+
+#[test]
+fn time_budgets_set_the_amount_of_work_and_tables_show_it() {
+    let place = Place::new(EXPERIMENT);
+    place.run("out", &[]);
+    let cells = place.cells("out");
+    let timed = || cells.iter().filter(|cell| cell["budget"] != "count");
+    for scene in ["cornell", "trio"] {
+        for budget in [serde_json::json!({ "seconds": 0.02 }), Value::from("baseline")] {
+            let alike = timed().filter(|c| c["scene"] == scene && c["budget"] == budget);
+            // By key: corrections write a cell again.
+            let last: std::collections::BTreeMap<String, u64> = alike
+                .map(|c| (c["key"].to_string(), c["amount"].as_u64().expect("an amount")))
+                .collect();
+            assert_eq!(last.len(), 4, "two seeds, two repetitions");
+            let amounts: BTreeSet<_> = last.values().collect();
+            assert_eq!(amounts.len(), 1, "all runs of a variant do the same work: {amounts:?}");
+        }
+    }
+    assert!(timed().all(|cell| cell["parameters"].get("samples").is_none()));
+
+    let markdown = place.read("out/table.md");
+    for said in ["reference time=20.0 ms", "reference time=baseline", "bias", "deviation"] {
+        assert!(markdown.contains(said), "{said}: {markdown}");
+    }
+    assert!(markdown.contains("| reference | traced | 1.00e-9 | not reached |"), "{markdown}");
+    assert!(markdown.contains("| nobody | trio | reference samples=16 | traced | psnr | 20.0 |"));
+    assert!(place.read("out/table.tex").contains("\\toprule"));
+    let png = image::open(place.path("out/curves.png")).expect("a figure");
+    assert!(png.width() > 1000);
+
+    place.run("out", &[]);
+    assert_eq!(place.cells("out"), cells, "a finished run repeats nothing");
+}
+
+#[test]
+fn long_runs_have_checkpoints_on_the_way() {
+    let place = Place::new(EXPERIMENT);
+    place.run("out", &[]);
+    let long = |cell: &&Value| cell["parameters"]["samples"] == 64.0;
+    for cell in place.cells("out").iter().filter(long) {
+        let points = cell["checkpoints"].as_array().expect("a list");
+        let amounts: Vec<_> = points.iter().map(|point| point["amount"].as_u64()).collect();
+        assert_eq!(amounts, [Some(16), Some(32)], "doubling, the end left to the cell itself");
+        let error = |point: &Value| point["display_rmse"]["traced"].as_f64().expect("an error");
+        assert!(error(&points[0]) > error(&points[1]), "more samples, less noise");
+    }
+}
+
+#[test]
+fn jobs_do_the_whole_experiment_piece_by_piece() {
+    let counts = EXPERIMENT.replace("[[methods]]\nid = \"reference\"\nbudget = \"time\"\n", "");
+    let place = Place::new(&counts);
+    place.run("whole", &[]);
+    let file = place.path("experiment.toml");
+    let jobs = json(&["plan", &file, "--profile", "quick", "--json"]);
+    let jobs = jobs.as_array().expect("a list");
+    assert_eq!(jobs.len(), 4, "two scenes, two settings");
+    for job in jobs {
+        place.run("pieces", &["--cell", job["key"].as_str().expect("a key")]);
+    }
+    let pictures = |out: &str| -> BTreeSet<(String, String)> {
+        let cells = place.cells(out);
+        cells.iter().map(|c| (c["key"].to_string(), c["image_sha256"].to_string())).collect()
+    };
+    assert_eq!(pictures("pieces"), pictures("whole"));
+    let out = place.path("pieces");
+    refused(&["run", &file, "--profile", "quick", "--out", &out, "--cell", "0"], "not a key");
+}
+
+#[test]
+fn a_check_passes_on_an_unchanged_tree_and_names_what_moved() {
+    let place = Place::new(
+        &EXPERIMENT
+            .replace("[[methods]]\nid = \"reference\"\nbudget = \"time\"\n", "")
+            .replace("\"cornell\", ", ""),
+    );
+    let baseline = place.folder.path().to_str().expect("UTF-8").to_owned();
+    refused(&["check", "--baseline", &baseline], "no baseline: make one with --bless");
+    succeeded(&manylights(&["check", "--baseline", &baseline, "--bless"]));
+    assert_eq!(json(&["check", "--baseline", &baseline, "--json"]), serde_json::json!([]));
+
+    // As if a picture had been another one: the check must name the cell.
+    let text = place.read("cells.jsonl");
+    let first: Value = serde_json::from_str(text.lines().next().expect("a line")).expect("JSON");
+    let hash = first["image_sha256"].as_str().expect("a hash");
+    std::fs::write(place.path("cells.jsonl"), text.replace(hash, &"0".repeat(64)))
+        .expect("writable");
+    let output = manylights(&["check", "--baseline", &baseline]);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{errors}");
+    assert!(errors.contains("trio reference samples=16  picture"), "{errors}");
+    assert!(errors.contains("--bless"), "{errors}");
+}
+
+#[test]
+fn results_are_exported_for_trackers() {
+    let place = Place::new(EXPERIMENT);
+    place.run("out", &[]);
+    let out = place.path("out");
+    let bencher = json(&["export", &out, "--format", "bencher"]);
+    let metric = &bencher["cornell/reference samples=16"]["rmse-traced"];
+    let bound = |name: &str| metric[name].as_f64().expect("a number");
+    assert!(bound("lower_value") <= bound("value") && bound("value") <= bound("upper_value"));
+    let list = json(&["export", &out, "--format", "github-action-benchmark"]);
+    let entry = &list.as_array().expect("a list")[0];
+    assert!(["name", "unit", "value", "range"].iter().all(|key| entry.get(key).is_some()));
+    refused(&["export", "missing", "--format", "bencher"], "no cells");
+}
+
+#[test]
+fn shells_are_completed() {
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let output = manylights(&["completions", shell]);
+        succeeded(&output);
+        assert!(String::from_utf8_lossy(&output.stdout).contains("manylights"));
+    }
+}
+
+#[test]
+fn help_has_no_colour_where_nobody_looks() {
+    let output = manylights(&["run", "--help"]);
+    succeeded(&output);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.contains("Examples:") && !text.contains('\u{1b}'), "{text}");
+    assert!(Path::new(env!("CARGO_BIN_EXE_manylights")).exists());
+}
