@@ -39,6 +39,8 @@ enum Command {
     Report(ReportArguments),
     /// Lists the jobs of an experiment, for `run --cell` on other machines
     Plan(PlanArguments),
+    /// Brings the results of several folders into one and writes its answer
+    Merge(MergeArguments),
     /// Compares a fresh quick run with a committed baseline
     #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArguments),
@@ -184,6 +186,16 @@ pub(crate) struct PlanArguments {
 }
 
 #[derive(Args)]
+pub(crate) struct MergeArguments {
+    /// Folders of results of one experiment
+    #[arg(required = true)]
+    pub(crate) directories: Vec<PathBuf>,
+    /// Folder of the merged results
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+}
+
+#[derive(Args)]
 pub(crate) struct CheckArguments {
     /// Folder of the baseline: its experiment.toml and cells.jsonl
     #[arg(long, value_name = "DIR", default_value = "results/check")]
@@ -239,6 +251,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure>
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Plan(arguments) => commands::plan::run(&arguments),
+        Command::Merge(arguments) => commands::merge::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Export(arguments) => commands::export::run(&arguments),
         Command::Completions { shell } => {

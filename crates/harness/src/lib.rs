@@ -6,6 +6,7 @@
 //! names a method: [`registry::METHODS`] is the only list.
 
 mod answer;
+mod answer_files;
 mod bias;
 mod cell;
 pub mod cli;

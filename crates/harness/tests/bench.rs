@@ -5,7 +5,7 @@ mod common;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use common::{json, manylights, refused, succeeded};
+use common::{json, manylights, manylights_on, refused, spawn, succeeded};
 use serde_json::Value;
 
 const EXPERIMENT: &str = r#"
@@ -125,9 +125,13 @@ fn jobs_do_the_whole_experiment_piece_by_piece() {
     let jobs = json(&["plan", &file, "--profile", "quick", "--json"]);
     let jobs = jobs.as_array().expect("a list");
     assert_eq!(jobs.len(), 4, "two scenes, two settings");
-    for job in jobs {
-        place.run("pieces", &["--cell", job["key"].as_str().expect("a key")]);
+    for (index, job) in jobs.iter().enumerate() {
+        let worker = ["first", "second"][index % 2];
+        place.run(worker, &["--cell", job["key"].as_str().expect("a key")]);
     }
+    let merged = place.path("pieces");
+    succeeded(&manylights(&["merge", &place.path("first"), &place.path("second"), "--out", &merged]));
+    assert_eq!(errors(&place.read("pieces/table.csv")), errors(&place.read("whole/table.csv")));
     let pictures = |out: &str| -> BTreeSet<(String, String)> {
         let cells = place.cells(out);
         cells.iter().map(|c| (c["key"].to_string(), c["image_sha256"].to_string())).collect()
@@ -135,6 +139,59 @@ fn jobs_do_the_whole_experiment_piece_by_piece() {
     assert_eq!(pictures("pieces"), pictures("whole"));
     let out = place.path("pieces");
     refused(&["run", &file, "--profile", "quick", "--out", &out, "--cell", "0"], "not a key");
+}
+
+#[test]
+fn a_run_that_is_killed_ten_times_gives_the_same_table() {
+    let counts = EXPERIMENT.replace("[[methods]]\nid = \"reference\"\nbudget = \"time\"\n", "");
+    let place = Place::new(&counts);
+    let start = std::time::Instant::now();
+    place.run("undisturbed", &[]);
+    let whole = start.elapsed();
+    let (file, out, cache) = (place.path("experiment.toml"), place.path("out"), place.path("new"));
+    let arguments = ["run", &file, "--profile", "quick", "--out", &out, "--cache", &cache];
+    for kill in 0..10 {
+        let mut child = spawn(&arguments);
+        // Spread over the run by the golden ratio; where the run ends first, it was not disturbed.
+        std::thread::sleep(whole.mul_f64((f64::from(kill) * 0.618).fract()));
+        child.kill().expect("a process of ours");
+        child.wait().expect("it was started");
+    }
+    succeeded(&manylights(&arguments));
+    assert_eq!(errors(&place.read("out/table.csv")), errors(&place.read("undisturbed/table.csv")));
+}
+
+/// The lines of a table without what the clock says.
+fn errors(csv: &str) -> BTreeSet<Vec<String>> {
+    let mut lines = csv.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let head = lines.next().expect("a head");
+    let told = |(name, _): &(&String, String)| !name.contains("seconds");
+    lines.map(|line| head.iter().zip(line).filter(told).map(|(_, cell)| cell).collect()).collect()
+}
+
+#[test]
+fn rows_of_several_machines_keep_their_own_baseline() {
+    let counts = EXPERIMENT.replace("[[methods]]\nid = \"reference\"\nbudget = \"time\"\n", "");
+    let place = Place::new(&counts.replace("\"cornell\", ", ""));
+    let file = place.path("experiment.toml");
+    for machine in ["ada", "bob"] {
+        let (out, cache) = (place.path(machine), place.path("cache"));
+        let arguments = ["run", &file, "--profile", "quick", "--out", &out, "--cache", &cache];
+        succeeded(&manylights_on(machine, &arguments));
+    }
+    let merged = place.path("merged");
+    succeeded(&manylights(&["merge", &place.path("ada"), &place.path("bob"), "--out", &merged]));
+    let table = place.read("merged/table.md");
+    for machine in ["ada", "bob"] {
+        let base = format!("| reference samples=16 @{machine} |");
+        let line = table.lines().find(|line| line.contains(&base)).expect(&base);
+        // The base of its own machine: both ratios are one.
+        assert_eq!(line.matches("| 1.00 |").count(), 2, "{line}");
+    }
+    let other = Place::new(&counts);
+    other.run("out", &[]);
+    let (other, merged) = (other.path("out"), merged.as_str());
+    refused(&["merge", &other, "--out", merged], "only results of one experiment");
 }
 
 #[test]

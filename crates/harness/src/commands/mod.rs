@@ -4,6 +4,7 @@ pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod export;
 pub(crate) mod list;
+pub(crate) mod merge;
 pub(crate) mod metrics;
 pub(crate) mod plan;
 pub(crate) mod render;

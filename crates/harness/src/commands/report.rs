@@ -1,6 +1,6 @@
 //! `manylights report`.
 
-use crate::answer::SceneAnswer;
+use crate::answer_files;
 use crate::cli::ReportArguments;
 use crate::error::Failure;
 use crate::report::{self, Loaded, Report};
@@ -12,10 +12,7 @@ use crate::report::{self, Loaded, Report};
 pub(crate) fn run(arguments: &ReportArguments) -> Result<(), Failure> {
     let directory = &arguments.directory;
     let Loaded { experiment, scenes, machine } = report::load(directory)?;
-    let answers = scenes
-        .iter()
-        .map(|cells| SceneAnswer::new(&experiment, cells, directory))
-        .collect::<Result<Vec<_>, _>>()?;
+    let answers = answer_files::answers(&experiment, &scenes, directory)?;
     let command = report::command(&directory.join("experiment.toml"), &experiment, None);
     Report {
         experiment: &experiment,

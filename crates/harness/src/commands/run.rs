@@ -8,14 +8,12 @@ use manylights_scene::Scene;
 use crate::answer::{RowResult, SceneAnswer};
 use crate::cell::Outcome;
 use crate::cli::RunArguments;
-use crate::curves::Figure;
 use crate::error::Failure;
 use crate::experiment::{self, Experiment};
 use crate::jobs;
-use crate::provenance::Provenance;
 use crate::report::{self, Report};
-use crate::session::{SceneCells, Session};
-use crate::{layers, output, sheet, stage, table};
+use crate::session::Session;
+use crate::{answer_files, layers, output, stage};
 
 /// Runs an experiment, or what is left of it, and writes the answer.
 ///
@@ -37,25 +35,23 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     let variants: Vec<usize> = (0..experiment.variants.len()).collect();
     let mut all_cells = Vec::with_capacity(scenes.len());
-    let mut answers = Vec::with_capacity(scenes.len());
     for scene in &scenes {
         let cells = session.scene(scene, &variants)?;
         session.retire(&cells)?;
-        let answer = SceneAnswer::new(&experiment, &cells, out)?;
-        write_sheet(&experiment, &cells, &answer, out)?;
-        layers::write(&experiment, scene, &cells, &answer, [&cache, out])?;
         all_cells.push(cells);
-        answers.push(answer);
     }
-    write_answer(&experiment, &answers, &session.on_gpu, out)?;
-    Report {
+    let answers = answer_files::answers(&experiment, &all_cells, out)?;
+    for ((scene, cells), answer) in scenes.iter().zip(&all_cells).zip(&answers) {
+        layers::write(&experiment, scene, cells, answer, [&cache, out])?;
+    }
+    let report = Report {
         experiment: &experiment,
         cells: &all_cells,
         answers: &answers,
         machine: &session.on_gpu,
         command: report::command(file, &experiment, arguments.out.as_deref()),
-    }
-    .write(out)?;
+    };
+    answer_files::write(&report, out)?;
     check(&answers)
 }
 
@@ -102,43 +98,6 @@ pub(crate) fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec
         scenes.push(scene);
     }
     Ok(scenes)
-}
-
-fn write_sheet(
-    experiment: &Experiment,
-    cells: &SceneCells,
-    answer: &SceneAnswer,
-    out: &Path,
-) -> Result<(), Failure> {
-    let png = sheet::png(experiment, cells, answer, out)?;
-    let path = out.join(format!("sheet-{}.png", cells.scene));
-    output::write(&path, &png)
-}
-
-fn write_answer(
-    experiment: &Experiment,
-    answers: &[SceneAnswer],
-    machine: &Provenance,
-    out: &Path,
-) -> Result<(), Failure> {
-    let markdown = table::markdown(experiment, answers, machine);
-    let figure = Figure::new(experiment, answers);
-    let files = [
-        ("table.md", markdown.into_bytes()),
-        ("table.tex", table::latex(experiment, answers, machine).into_bytes()),
-        ("table.csv", table::csv(experiment, answers).into_bytes()),
-        ("curves.svg", figure.svg()?.into_bytes()),
-        ("curves.png", figure.png()?),
-    ];
-    for (name, bytes) in files {
-        let path = out.join(name);
-        output::write(&path, &bytes)?;
-        eprintln!("{}", path.display());
-    }
-    for answer in answers {
-        eprintln!("{}", out.join(format!("sheet-{}.png", answer.scene)).display());
-    }
-    Ok(())
 }
 
 /// A cell that failed fails the comparison.

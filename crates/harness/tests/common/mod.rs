@@ -2,20 +2,34 @@
 #![allow(dead_code, reason = "each test binary uses a part")]
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 
 use manylights_metrics::RadianceImage;
 
 /// Runs the program from the root of the workspace, as the README does.
 pub(crate) fn manylights(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_manylights"))
+    command(arguments).output().expect("the program starts")
+}
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_manylights"));
+    command
         .args(arguments)
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
         .env_remove("MANYLIGHTS_CACHE")
         // Where it is unset, Mesa writes lines of its own to standard error.
-        .env("XDG_RUNTIME_DIR", std::env::temp_dir())
-        .output()
-        .expect("the program starts")
+        .env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    command
+}
+
+/// As [`manylights`], on a machine of this name.
+pub(crate) fn manylights_on(machine: &str, arguments: &[&str]) -> Output {
+    command(arguments).env("MANYLIGHTS_MACHINE", machine).output().expect("the program starts")
+}
+
+/// Starts the program and does not wait for it.
+pub(crate) fn spawn(arguments: &[&str]) -> Child {
+    command(arguments).stderr(Stdio::null()).spawn().expect("the program starts")
 }
 
 /// Asserts exit status 0.

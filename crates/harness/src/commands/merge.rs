@@ -1,0 +1,95 @@
+//! `manylights merge`.
+
+use std::path::Path;
+
+use crate::answer_files;
+use crate::cell::{Cell, Outcome};
+use crate::cli::MergeArguments;
+use crate::error::Failure;
+use crate::journal::{self, Journal};
+use crate::output;
+use crate::report::{self, Loaded, Report};
+use crate::session::image_path;
+
+/// Brings the results of several folders, from several machines, into one, and writes its answer. A
+/// row is one machine's; ratios are to the baseline of the same machine.
+///
+/// # Errors
+/// One line where a folder holds no results or those of another experiment.
+pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
+    let out = &arguments.out;
+    output::check_directory(&out.join("cells"), "--out")?;
+    let mut journal = Journal::open(out)?;
+    for directory in &arguments.directories {
+        keep_question(directory, out)?;
+        let journal::Contents { cells, problems } =
+            journal::read(&directory.join("cells.jsonl"))?;
+        problems.iter().for_each(|problem| eprintln!("{problem}; left out"));
+        if cells.is_empty() {
+            return Err(Failure::input(format!("{}: no cells to merge", directory.display())));
+        }
+        copy_references(directory, out)?;
+        for cell in &cells {
+            copy_pictures(cell, directory, out)?;
+            if journal.get(&cell.key) != Some(cell) {
+                journal.append(cell)?;
+            }
+        }
+    }
+    let Loaded { experiment, scenes, machine } = report::load(out)?;
+    let answers = answer_files::answers(&experiment, &scenes, out)?;
+    let command = report::command(&out.join("experiment.toml"), &experiment, None);
+    let report =
+        Report { experiment: &experiment, cells: &scenes, answers: &answers, machine: &machine, command };
+    answer_files::write(&report, out)
+}
+
+/// All folders must answer the same question.
+fn keep_question(directory: &Path, out: &Path) -> Result<(), Failure> {
+    let [theirs, ours] = [directory, out].map(|folder| folder.join("experiment.toml"));
+    let text = std::fs::read(&theirs)
+        .map_err(|error| Failure::input(format!("{}: {error}", theirs.display())))?;
+    match std::fs::read(&ours) {
+        Ok(known) if known == text => Ok(()),
+        Ok(_) => Err(Failure::input(format!(
+            "{} differs from {}: only results of one experiment can be merged",
+            theirs.display(),
+            ours.display()
+        ))),
+        Err(_) => output::write(&ours, &text),
+    }
+}
+
+fn copy_pictures(cell: &Cell, from: &Path, to: &Path) -> Result<(), Failure> {
+    if !matches!(cell.outcome, Outcome::Done(_)) || cell.inputs.repetition > 0 {
+        return Ok(());
+    }
+    let [from, to] = [from, to].map(|folder| image_path(folder, &cell.inputs.scene, &cell.key));
+    for extension in ["exr", "png", "layers.exr"] {
+        let [from, to] = [&from, &to].map(|path| path.with_extension(extension));
+        copy(&from, &to)?;
+    }
+    Ok(())
+}
+
+fn copy_references(from: &Path, to: &Path) -> Result<(), Failure> {
+    let folder = from.join("cells");
+    let at = |error: std::io::Error| Failure::input(format!("{}: {error}", folder.display()));
+    for entry in folder.read_dir().map_err(at)? {
+        let name = entry.map_err(at)?.file_name();
+        if name.to_str().is_some_and(|name| name.contains("-reference-")) {
+            copy(&folder.join(&name), &to.join("cells").join(&name))?;
+        }
+    }
+    Ok(())
+}
+
+/// Copies what is there and is not yet known.
+fn copy(from: &Path, to: &Path) -> Result<(), Failure> {
+    if !from.exists() || to.exists() {
+        return Ok(());
+    }
+    let bytes = std::fs::read(from)
+        .map_err(|error| Failure::input(format!("{}: {error}", from.display())))?;
+    output::write(to, &bytes)
+}
