@@ -130,7 +130,13 @@ fn jobs_do_the_whole_experiment_piece_by_piece() {
         place.run(worker, &["--cell", job["key"].as_str().expect("a key")]);
     }
     let merged = place.path("pieces");
-    succeeded(&manylights(&["merge", &place.path("first"), &place.path("second"), "--out", &merged]));
+    succeeded(&manylights(&[
+        "merge",
+        &place.path("first"),
+        &place.path("second"),
+        "--out",
+        &merged,
+    ]));
     assert_eq!(errors(&place.read("pieces/table.csv")), errors(&place.read("whole/table.csv")));
     let pictures = |out: &str| -> BTreeSet<(String, String)> {
         let cells = place.cells(out);

@@ -77,7 +77,7 @@ pub fn render(
     observe: &mut dyn FnMut(Progress),
 ) -> Result<Reference, Error> {
     let Settings { transport, resolution, seed, samples } = *settings;
-    let mut picture = Picture::new(scene, camera, transport, resolution, seed)?;
+    let mut picture = Picture::new(scene, camera, transport, resolution, seed, SLICE)?;
     let file = cache
         .map(|folder| CacheFile::new(folder, &content::content_digest(scene, camera), settings));
     let mut notes = Vec::new();

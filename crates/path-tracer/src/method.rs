@@ -17,7 +17,8 @@ pub struct PathTracer;
 
 struct PathTracerRun<'a> {
     picture: Picture<'a>,
-    samples: u32,
+    slices: u32,
+    slice_samples: u32,
     primary_seconds: f64,
     sample_seconds: f64,
 }
@@ -38,7 +39,7 @@ impl Method for PathTracer {
     fn parameters(&self) -> &'static [ParameterInfo] {
         &[ParameterInfo {
             name: "samples",
-            help: "paths a pixel, rounded up to whole slices of 16",
+            help: "paths a pixel, rounded up to equal slices of at most 16",
             kind: ParameterKind::Count { default: 64, min: 1, max: 1 << 24 },
         }]
     }
@@ -58,10 +59,14 @@ impl Method for PathTracer {
     ) -> Result<Box<dyn Run + 'a>, Error> {
         let start = Instant::now();
         let Frame { scene, camera, transport, resolution, seed, .. } = *frame;
-        let picture = Picture::new(scene, camera, transport, resolution, seed)?;
+        let samples = parameters.count("samples") as u32;
+        let slices = samples.div_ceil(SLICE);
+        let slice_samples = samples.div_ceil(slices);
+        let picture = Picture::new(scene, camera, transport, resolution, seed, slice_samples)?;
         Ok(Box::new(PathTracerRun {
             picture,
-            samples: parameters.count("samples") as u32,
+            slices,
+            slice_samples,
             primary_seconds: start.elapsed().as_secs_f64(),
             sample_seconds: 0.0,
         }))
@@ -74,8 +79,8 @@ impl Run for PathTracerRun<'_> {
         self.picture.slice()?;
         self.sample_seconds += start.elapsed().as_secs_f64();
         Ok(Progress {
-            done: u64::from(self.picture.slices() * SLICE),
-            total: u64::from(self.samples.next_multiple_of(SLICE)),
+            done: u64::from(self.picture.slices() * self.slice_samples),
+            total: u64::from(self.slices * self.slice_samples),
         })
     }
 
@@ -84,7 +89,7 @@ impl Run for PathTracerRun<'_> {
     }
 
     fn counters(&self) -> Vec<(&'static str, u64)> {
-        let samples = u64::from(self.picture.slices() * SLICE);
+        let samples = u64::from(self.picture.slices() * self.slice_samples);
         vec![("samples", samples), ("rays", self.picture.rays())]
     }
 

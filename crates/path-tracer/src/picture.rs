@@ -25,6 +25,8 @@ pub(crate) struct Picture<'a> {
     seed: u64,
     pixels: Vec<Pixel>,
     sums: Vec<Sums>,
+    /// Samples of a slice.
+    slice_samples: u32,
     slices: u32,
     rays: u64,
 }
@@ -37,14 +39,17 @@ struct Pixel {
 }
 
 impl<'a> Picture<'a> {
-    /// Traces the primary hits through the pixel centres and computes what needs no sampling.
+    /// Traces the primary hits through the pixel centres and computes what needs no sampling. Slices
+    /// have `slice_samples` samples, at most [`SLICE`].
     pub(crate) fn new(
         scene: &'a Scene,
         camera: &'a Camera,
         transport: Transport,
         resolution: [u32; 2],
         seed: u64,
+        slice_samples: u32,
     ) -> Result<Self, Error> {
+        assert!((1..=SLICE).contains(&slice_samples), "a slice is part of one Sobol net");
         check(transport, resolution)?;
         let tracer = Tracer::new(scene, transport);
         let [width, height] = resolution;
@@ -63,10 +68,11 @@ impl<'a> Picture<'a> {
         let rays = traced.iter().map(|(_, rays)| rays).sum();
         let pixels: Vec<_> = traced.into_iter().map(|(pixel, _)| pixel).collect();
         let sums = vec![Sums::default(); pixels.len()];
-        Ok(Self { tracer, camera, resolution, seed, pixels, sums, slices: 0, rays })
+        let slices = 0;
+        Ok(Self { tracer, camera, resolution, seed, pixels, sums, slice_samples, slices, rays })
     }
 
-    /// Adds the next slice: [`SLICE`] samples to every pixel.
+    /// Adds the next slice to every pixel.
     pub(crate) fn slice(&mut self) -> Result<(), Error> {
         let slice = self.slices;
         let this = &*self;
@@ -98,8 +104,9 @@ impl<'a> Picture<'a> {
         let direction = self.camera.direction(index % width, index / width, self.resolution);
         let point = self.tracer.primary(hit, direction);
         let mut walk = self.tracer.walk(Sampler::new(self.seed, index, slice));
-        let sum: Vec3 = (0..SLICE).map(|sample| walk.sample(&point, -direction, sample)).sum();
-        (sum / SLICE as f32, walk.rays)
+        let samples = 0..self.slice_samples;
+        let sum: Vec3 = samples.map(|sample| walk.sample(&point, -direction, sample)).sum();
+        (sum / self.slice_samples as f32, walk.rays)
     }
 
     /// Slices that are done.

@@ -139,3 +139,36 @@ fn the_content_hash_sees_what_matters() {
     renamed.notes.push("x".into());
     assert_eq!(hash(&renamed), original);
 }
+
+/// Numbers of samples that are no multiple of a slice are met within one sample a slice, and are as
+/// unbiased as others.
+#[test]
+fn the_method_takes_any_number_of_samples() {
+    let scene = load("cornell", None).expect("a built-in scene");
+    let render = |samples: &str, seed| {
+        let frame = Frame {
+            scene: &scene,
+            camera: &scene.cameras[0],
+            resolution: [6, 4],
+            transport: "indirect-1".parse().expect("a transport"),
+            seed,
+            gpu: None,
+        };
+        let parameters = Parameters::new(PathTracer.parameters(), [("samples", samples)]);
+        let mut run = PathTracer.prepare(&frame, &parameters.expect("valid")).expect("accepted");
+        while !run.step().expect("a step").finished() {}
+        (run.counters()[0], run.resolve().expect("a picture").pixels)
+    };
+    for (asked, taken) in [("1", 1), ("5", 5), ("16", 16), ("17", 18), ("40", 42), ("48", 48)] {
+        assert_eq!(render(asked, 1).0, ("samples", taken));
+    }
+    let mean = |samples: &str, seeds: u64| {
+        let green = |seed| render(samples, seed).1.iter().map(|p| f64::from(p[1])).sum::<f64>();
+        let values: Vec<f64> = (0..seeds).map(green).collect();
+        let mean = values.iter().sum::<f64>() / seeds as f64;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        (mean, squares / (seeds * (seeds - 1)) as f64)
+    };
+    let ((few, a), (many, b)) = (mean("5", 400), mean("48", 100));
+    assert!((few - many).abs() < 4.0 * (a + b).sqrt(), "{few} {many}, {}", (a + b).sqrt());
+}

@@ -22,8 +22,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
     let mut journal = Journal::open(out)?;
     for directory in &arguments.directories {
         keep_question(directory, out)?;
-        let journal::Contents { cells, problems } =
-            journal::read(&directory.join("cells.jsonl"))?;
+        let journal::Contents { cells, problems } = journal::read(&directory.join("cells.jsonl"))?;
         problems.iter().for_each(|problem| eprintln!("{problem}; left out"));
         if cells.is_empty() {
             return Err(Failure::input(format!("{}: no cells to merge", directory.display())));
@@ -39,8 +38,13 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
     let Loaded { experiment, scenes, machine } = report::load(out)?;
     let answers = answer_files::answers(&experiment, &scenes, out)?;
     let command = report::command(&out.join("experiment.toml"), &experiment, None);
-    let report =
-        Report { experiment: &experiment, cells: &scenes, answers: &answers, machine: &machine, command };
+    let report = Report {
+        experiment: &experiment,
+        cells: &scenes,
+        answers: &answers,
+        machine: &machine,
+        command,
+    };
     answer_files::write(&report, out)
 }
 
