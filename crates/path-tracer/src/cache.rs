@@ -13,7 +13,7 @@ use crate::sums::Sums;
 use crate::{Error, Settings};
 
 /// Changes whenever the same inputs would give other sums.
-const ALGORITHM: &[u8] = b"manylights reference 1";
+const ALGORITHM: &[u8] = b"manylights reference 2";
 
 const MAGIC: [u8; 8] = *b"MLREF\0\0\x01";
 const HEADER: usize = MAGIC.len() + KEY + size_of::<u32>();
