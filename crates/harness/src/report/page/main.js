@@ -62,7 +62,7 @@ watch(['stops', 'octaves', 'scene'], () => {
   element('scale').value = state.octaves;
   const sign = state.stops < 0 ? '−' : '+';
   element('exposure-value').textContent = `${sign}${Math.abs(state.stops)} stops`;
-  element('scale-value').textContent = `± ${short(errorScale())}`;
+  element('scale-value').textContent = short(errorScale());
 });
 
 element('modes').addEventListener('change', (event) => change({ mode: event.target.value }));
