@@ -1,5 +1,7 @@
 //! `sheet-SCENE.png`: references, methods, crops and errors side by side.
 
+mod tiles;
+
 use std::io::Cursor;
 use std::path::Path;
 
@@ -8,31 +10,16 @@ use image::{ImageFormat, Rgb, RgbImage};
 use manylights_metrics::{RadianceImage, false_color};
 
 use crate::answer::SceneAnswer;
-use crate::crops::frame;
 use crate::error::Failure;
 use crate::error_scale::error_scale;
 use crate::experiment::Experiment;
-use crate::lettering::{self, LINE};
 use crate::numbers::short;
 use crate::reference::SceneReference;
 use crate::session::{SceneCells, image_path};
+use tiles::{Rectangle, Tile, compose, draw_frame};
 
-const GAP: u32 = 10;
 /// Small pictures are enlarged by whole factors until captions fit.
 const MIN_TILE: u32 = 400;
-/// Pixels of the line around a crop.
-const FRAME: u32 = 3;
-const INK: Rgb<u8> = Rgb([30, 30, 30]);
-const PAPER: Rgb<u8> = Rgb([255, 255, 255]);
-
-/// Left, top, width, height in pixels.
-type Rectangle = [u32; 4];
-
-/// A picture with two lines of caption above it.
-struct Tile {
-    caption: [String; 2],
-    picture: RgbImage,
-}
 
 /// The picture of a method.
 struct Entry {
@@ -145,22 +132,6 @@ fn enlarged_crops(
     std::iter::once(reference).chain(methods).collect()
 }
 
-/// Draws the outline of a rectangle within it.
-fn draw_frame(picture: &mut RgbImage, [left, top, width, height]: Rectangle, nth: usize) {
-    let ink = Rgb(frame(nth));
-    for inset in 0..FRAME.min(width / 2).min(height / 2) {
-        let (right, bottom) = (left + width - 1 - inset, top + height - 1 - inset);
-        for x in left + inset..=right {
-            picture.put_pixel(x, top + inset, ink);
-            picture.put_pixel(x, bottom, ink);
-        }
-        for y in top + inset..=bottom {
-            picture.put_pixel(left + inset, y, ink);
-            picture.put_pixel(right, y, ink);
-        }
-    }
-}
-
 /// A reference, then the errors of the methods against it.
 fn errors(
     cells: &SceneCells,
@@ -217,45 +188,5 @@ fn wrapped(label: &str) -> [String; 2] {
     match label.split_once(' ') {
         Some((method, parameters)) => [method.to_owned(), parameters.to_owned()],
         None => [label.to_owned(), String::new()],
-    }
-}
-
-fn compose(rows: &[Vec<Tile>]) -> RgbImage {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0) as u32;
-    let width = rows[0][0].picture.width();
-    let heights: Vec<u32> =
-        rows.iter().map(|row| row[0].picture.height() + 2 * LINE + GAP).collect();
-    let size = (columns * (width + GAP) + GAP, heights.iter().sum::<u32>() + GAP);
-    let mut sheet = RgbImage::from_pixel(size.0, size.1, PAPER);
-    let mut y = GAP;
-    for (tiles, height) in rows.iter().zip(heights) {
-        for (column, tile) in (0..).zip(tiles) {
-            let x = GAP + column * (width + GAP);
-            for (line, text) in (0..).zip(&tile.caption) {
-                let end = text.char_indices().nth(lettering::fitting(width));
-                let text = &text[..end.map_or(text.len(), |(at, _)| at)];
-                lettering::write(&mut sheet, x, y + line * LINE, text, INK);
-            }
-            imageops::replace(&mut sheet, &tile.picture, x.into(), (y + 2 * LINE).into());
-        }
-        y += height;
-    }
-    sheet
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn frames_stay_within_their_rectangle() {
-        for (rectangle, inked) in
-            [([2, 3, 10, 9], 90 - 4 * 3), ([0, 0, 1, 1], 0), ([1, 1, 2, 5], 10)]
-        {
-            let mut picture = RgbImage::new(16, 16);
-            draw_frame(&mut picture, rectangle, 0);
-            let ink = picture.pixels().filter(|pixel| pixel.0 == frame(0)).count();
-            assert_eq!(ink, inked, "{rectangle:?}");
-        }
     }
 }

@@ -212,7 +212,11 @@ fn a_folder_without_results_is_refused() {
 const READER: &str = r#"<script>
 const { state, change, show, sortBy, pixel, paint } = window.manylights;
 const text = (selector) => [...document.querySelectorAll(selector)].map((e) => e.textContent);
-const color = (index) => [...paint(index).getContext('2d').getImageData(5, 7, 1, 1).data];
+const eye = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+const color = (index) => {
+  eye.drawImage(paint(index), 0, 0);
+  return [...eye.getImageData(5, 7, 1, 1).data];
+};
 const key = (name) => document.body.dispatchEvent(new KeyboardEvent('keydown', { key: name, bubbles: true }));
 const columns = text('#table thead tr:last-child th');
 const seen = { ready: document.documentElement.dataset.ready, columns };

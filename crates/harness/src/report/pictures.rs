@@ -38,7 +38,7 @@ pub(super) struct Pictures<'a> {
     pub(super) list: Vec<Picture<'a>>,
     /// Of stored values to radiance.
     pub(super) factor: f32,
-    /// One scale for the errors of all of them, W·m⁻²·sr⁻¹.
+    /// One scale for the errors of all of them, that of the sheet: W·m⁻²·sr⁻¹.
     pub(super) error_scale: f32,
     /// Variants whose picture the budget leaves out.
     pub(super) left_out: usize,
@@ -63,12 +63,13 @@ impl<'a> Pictures<'a> {
         let mut done: Vec<_> =
             rows.filter_map(|(index, row)| Some((index, row.variant, row.medians()?))).collect();
         let all = done.len();
+        let ends_series = |variant: usize| {
+            let series = variants[variant].series();
+            variants[variant + 1..].iter().all(|later| later.series() != series)
+        };
         let count = scenes * (references.len() + all);
         if count * pixels::length(&references[0].image) > BUDGET {
-            done.retain(|&(_, variant, _)| {
-                let series = variants[variant].series();
-                variants[variant + 1..].iter().all(|later| later.series() != series)
-            });
+            done.retain(|&(_, variant, _)| ends_series(variant));
         }
         let mut list: Vec<_> = references.iter().map(Picture::Reference).collect();
         for &(index, _, medians) in &done {
@@ -76,8 +77,12 @@ impl<'a> Pictures<'a> {
             let image = RadianceImage::read_exr(&path).map_err(Failure::input)?;
             list.push(Picture::Row(index, image));
         }
-        let images: Vec<_> = list[references.len()..].iter().map(Picture::image).collect();
-        let error_scale = error_scale(&images, references);
+        let ends = list[references.len()..].iter().zip(&done);
+        let ends: Vec<_> = ends
+            .filter(|(_, (_, variant, _))| ends_series(*variant))
+            .map(|(picture, _)| picture.image())
+            .collect();
+        let error_scale = error_scale(&ends, references);
         let factor = pixels::factor(cells.exposure);
         Ok(Self { error_scale, factor, left_out: all - done.len(), list })
     }

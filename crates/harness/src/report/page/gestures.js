@@ -91,6 +91,7 @@ function read(canvas, pictureIndex, x, y) {
   const { values, errors } = pixel(pictureIndex, column, row);
   const signed = (value) => (value > 0 ? '+' : value < 0 ? '−' : ' ') + short(Math.abs(value));
   const line = (name, k) => `${name}  ${short(values[k]).padEnd(9)} ${signed(errors[k])}`;
+  element('readout').classList.add('read');
   element('readout').textContent = [
     `x ${column}, y ${row}`,
     '   radiance  error',

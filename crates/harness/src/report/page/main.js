@@ -50,7 +50,8 @@ watch(['scene'], layOutCrops);
 watch(['picture'], pressChip);
 watch(['picture', 'mode', 'stops', 'octaves', 'reference', 'view'], draw);
 watch(['picture', 'mode', 'stops', 'octaves', 'reference'], drawCrops);
-watch(['scene', 'reference', 'sort', 'picture'], drawTable);
+watch(['scene', 'reference', 'sort'], drawTable);
+watch(['picture'], markRow);
 watch(['tiles'], () => element('tiles').setAttribute('aria-pressed', state.tiles));
 watch(['mode'], () => {
   document.querySelector(`#modes [value="${state.mode}"]`).checked = true;
@@ -62,7 +63,7 @@ watch(['stops', 'octaves', 'scene'], () => {
   element('scale').value = state.octaves;
   const sign = state.stops < 0 ? '−' : '+';
   element('exposure-value').textContent = `${sign}${Math.abs(state.stops)} stops`;
-  element('scale-value').textContent = `± ${short(errorScale())}`;
+  element('scale-value').textContent = short(errorScale());
 });
 
 element('modes').addEventListener('change', (event) => change({ mode: event.target.value }));

@@ -54,6 +54,15 @@ function drawTable() {
       make('tr', {}, ...columns.map((column) => headCell(column, starts)))),
     make('tbody', {}, ...sorted(columns).map((row) => bodyRow(row, columns, starts, done))),
     make('tfoot', {}, floorRow(columns, starts)));
+  markRow();
+}
+
+/** Marks the row of the picture shown. */
+function markRow() {
+  const shown = String(scene().pictures[state.picture].row);
+  for (const line of document.querySelectorAll('#table tbody tr')) {
+    line.classList.toggle('on', line.dataset.row === shown);
+  }
 }
 
 const cellClass = (column, starts) => `${starts.has(column) ? 'start ' : ''}${column.left ? 'text' : ''}${column.id === 'method' ? 'method' : ''}`;
@@ -101,7 +110,7 @@ function methodCell(row, picture) {
 function bodyRow(row, columns, starts, done) {
   const index = scene().rows.indexOf(row);
   const picture = scene().pictures.findIndex((candidate) => candidate.row === index);
-  const line = make('tr', { 'data-row': index, class: picture >= 0 && picture === state.picture ? 'on' : '' });
+  const line = make('tr', { 'data-row': index });
   if (row.outcome !== 'done') {
     line.append(make('td'), methodCell(row, -1), make('td', { class: 'text start', colspan: columns.length - 2 }, `${row.outcome}: ${row.reason}`));
     return line;
