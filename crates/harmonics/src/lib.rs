@@ -14,6 +14,7 @@
 pub mod basis;
 pub mod quadrature;
 mod real;
+pub mod wgsl;
 
 pub use basis::Basis;
 pub use real::Real;
@@ -29,4 +30,14 @@ pub const fn count(bands: usize) -> usize {
 /// Position of coefficient (l, m), |m| ≤ l: l(l + 1) + m.
 pub const fn index(l: usize, m: isize) -> usize {
     (l * (l + 1)).wrapping_add_signed(m)
+}
+
+/// Number of coefficients with m ≥ 0 in `bands` bands: all that a function even in y has.
+pub const fn even_count(bands: usize) -> usize {
+    bands * (bands + 1) / 2
+}
+
+/// Position of coefficient (l, m), 0 ≤ m ≤ l, among those with m ≥ 0: l(l + 1)/2 + m.
+pub const fn even_index(l: usize, m: usize) -> usize {
+    l * (l + 1) / 2 + m
 }
