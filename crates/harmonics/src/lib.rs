@@ -12,6 +12,8 @@
 #![forbid(unsafe_code)]
 
 pub mod basis;
+pub mod hemispherical;
+pub mod projection;
 pub mod quadrature;
 mod real;
 pub mod wgsl;

@@ -35,20 +35,25 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, before)
 }
 
-/// ∫ f dω over the part of the sphere with `low` ≤ z ≤ `high`, by `count` Gauss–Legendre nodes in z
-/// and 2 `count` equidistant ones in φ: exact for polynomials in x, y, z of degree 2 `count` − 1
-/// (for even powers of sin θ; all SH products are such).
-pub fn sphere(count: usize, [low, high]: [f64; 2], mut f: impl FnMut([f64; 3]) -> f64) -> f64 {
+/// ∫ f dω over the part of the sphere with `low` ≤ z ≤ `high`, at [`sphere_nodes`].
+pub fn sphere(count: usize, range: [f64; 2], mut f: impl FnMut([f64; 3]) -> f64) -> f64 {
+    sphere_nodes(count, range).into_iter().map(|(direction, weight)| weight * f(direction)).sum()
+}
+
+/// Directions and weights on the part of the sphere with `low` ≤ z ≤ `high`: `count`
+/// Gauss–Legendre nodes in z and 2 `count` equidistant ones in φ. Exact for polynomials in x, y, z of
+/// degree 2 `count` − 1 (for even powers of sin θ; all SH products are such).
+pub fn sphere_nodes(count: usize, [low, high]: [f64; 2]) -> Vec<([f64; 3], f64)> {
     let turns = 2 * count;
-    let mut sum = 0.0;
+    let mut nodes = Vec::with_capacity(count * turns);
     for (node, weight) in gauss_legendre(count) {
         let z = 0.5 * (low + high) + 0.5 * (high - low) * node;
         let sine = ((1.0 - z) * (1.0 + z)).sqrt();
-        let ring: f64 = (0..turns)
-            .map(|k| (2.0 * PI * (k as f64 + 0.5) / turns as f64).sin_cos())
-            .map(|(s, c)| f([sine * c, sine * s, z]))
-            .sum();
-        sum += weight * ring;
+        let weight = weight * 0.5 * (high - low) * 2.0 * PI / turns as f64;
+        nodes.extend((0..turns).map(|k| {
+            let (s, c) = (2.0 * PI * (k as f64 + 0.5) / turns as f64).sin_cos();
+            ([sine * c, sine * s, z], weight)
+        }));
     }
-    sum * 0.5 * (high - low) * 2.0 * PI / turns as f64
+    nodes
 }
