@@ -12,8 +12,14 @@
 #![forbid(unsafe_code)]
 
 pub mod basis;
+pub mod clamped_cosine;
+pub mod convolution;
+pub mod product;
 pub mod quadrature;
 mod real;
+pub mod rotation;
+pub mod window;
+pub mod zonal;
 
 pub use basis::Basis;
 pub use real::Real;
