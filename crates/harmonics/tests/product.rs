@@ -88,7 +88,8 @@ fn the_local_product_holds_the_cosine_itself() {
         local.apply(&light, &mut product);
         assert!(difference(&product, &truth) < 1e-12, "{bands} bands");
         // Fewer multiplications than the blocks of equal m hold.
-        let blocks: usize = (0..bands).map(|m| (bands - m).pow(2) * if m > 0 { 2 } else { 1 }).sum();
+        let blocks: usize =
+            (0..bands).map(|m| (bands - m).pow(2) * if m > 0 { 2 } else { 1 }).sum();
         assert!(local.non_zeros() <= blocks, "{} of {blocks}", local.non_zeros());
     }
 }

@@ -7,24 +7,22 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::iter::Sum;
 use std::num::FpCategory;
-use std::ops::{
-    Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, Sub, SubAssign,
-};
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, Sub, SubAssign};
 
 use manylights_harmonics::Real;
 use num_traits::{Float, FloatConst, Num, NumCast, One, ToPrimitive, Zero};
 
 /// Operations since the last [`count`] began.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Operations {
+pub(crate) struct Operations {
     /// Additions and subtractions.
-    pub additions: usize,
+    pub(crate) additions: usize,
     /// Multiplications.
-    pub multiplications: usize,
+    pub(crate) multiplications: usize,
     /// Divisions.
-    pub divisions: usize,
+    pub(crate) divisions: usize,
     /// Square roots.
-    pub roots: usize,
+    pub(crate) roots: usize,
 }
 
 impl fmt::Display for Operations {
@@ -47,7 +45,7 @@ thread_local! {
 }
 
 /// What `work` does.
-pub fn count(work: impl FnOnce()) -> Operations {
+pub(crate) fn count(work: impl FnOnce()) -> Operations {
     DONE.set(Operations::default());
     work();
     DONE.get()
@@ -61,7 +59,7 @@ fn note(change: impl FnOnce(&mut Operations)) {
 
 /// An f64 that counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Counted(pub f64);
+pub(crate) struct Counted(pub(crate) f64);
 
 macro_rules! counted {
     ($($trait:ident $method:ident $assign:ident $assign_method:ident $field:ident;)*) => { $(

@@ -59,11 +59,8 @@ impl<R: Real> Zxzxz<R> {
 /// Near the identity a is arbitrary; c is read from R_z(−a) Q, so that the two always fit together.
 fn turns<R: Real>(q: Matrix<R>) -> [[R; 2]; 3] {
     let sine = (q[0][2] * q[0][2] + q[1][2] * q[1][2]).sqrt();
-    let [s, c] = if sine > R::zero() {
-        [q[1][2] / sine, q[0][2] / sine]
-    } else {
-        [R::zero(), R::one()]
-    };
+    let [s, c] =
+        if sine > R::zero() { [q[1][2] / sine, q[0][2] / sine] } else { [R::zero(), R::one()] };
     let last = [c * q[1][0] - s * q[0][0], c * q[1][1] - s * q[0][1]];
     [[s, c], [sine, q[2][2]], last]
 }

@@ -25,12 +25,7 @@ use crate::{Basis, Real, convolution};
 /// Coefficients c_l Y_lm(`direction`) of a zonal function about a unit direction (thesis 2.73).
 ///
 /// `scales` holds one c_l a band of `basis`, `coefficients` bands² numbers.
-pub fn rotate<R: Real>(
-    basis: &Basis<R>,
-    scales: &[R],
-    direction: [R; 3],
-    coefficients: &mut [R],
-) {
+pub fn rotate<R: Real>(basis: &Basis<R>, scales: &[R], direction: [R; 3], coefficients: &mut [R]) {
     basis.evaluate(direction, coefficients);
     convolution::convolve(scales, coefficients);
 }
