@@ -12,11 +12,17 @@
 #![forbid(unsafe_code)]
 
 pub mod basis;
+pub mod clamped_cosine;
+pub mod convolution;
 pub mod hemispherical;
+pub mod product;
 pub mod projection;
 pub mod quadrature;
 mod real;
+pub mod rotation;
 pub mod wgsl;
+pub mod window;
+pub mod zonal;
 
 pub use basis::Basis;
 pub use real::Real;
