@@ -12,10 +12,14 @@
 #![forbid(unsafe_code)]
 
 pub mod basis;
+pub mod batch;
+mod lanes;
 pub mod quadrature;
 mod real;
+mod recurrence;
 
 pub use basis::Basis;
+pub use lanes::Vectors;
 pub use real::Real;
 
 /// The largest number of bands that this crate is tested for.
