@@ -62,7 +62,7 @@ impl<R: Real> Number<R> for R {
 /// Q_l = `q_from_q` z Q_{l−1} − `q_from_d` s² D_{l−1} and D_l = `d_from_d` z D_{l−1} + `d_from_q` Q_{l−1}.
 ///
 /// Sloan's three-term recurrence in Q alone takes second differences at the poles, where f32 loses
-/// 1e-5 of band 29; this pair turns there like a .
+/// 1e-5 of band 29; this pair turns there like a rotation by a small angle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<R> {
     q_from_q: R,
