@@ -18,6 +18,8 @@ pub mod quadrature;
 mod real;
 mod recurrence;
 
+pub mod thesis;
+
 pub use basis::Basis;
 pub use lanes::Vectors;
 pub use real::Real;

@@ -133,11 +133,11 @@ fn batch_is_single<R: Vectors>(tolerance: f64) {
             let mut single = [zero(), zero(), zero(), zero()];
             let [value, x, y, z] = &mut single;
             basis.evaluate_with_gradient_at(*point, value, [x, y, z]);
-            for lm in 0..count(bands) {
-                for c in 0..4 {
+            for (c, single) in single.iter().enumerate() {
+                for (lm, &single) in single.iter().enumerate() {
                     let row = (i / lanes::<R>() * count(bands) + lm) * 4 + c;
                     let found = output[row * lanes::<R>() + i % lanes::<R>()];
-                    let error = Real::to_f64(found - single[c][lm]).abs();
+                    let error = Real::to_f64(found - single).abs();
                     assert!(error < tolerance, "bands {bands}, point {i}, {lm}, {c}: {error}");
                 }
             }
