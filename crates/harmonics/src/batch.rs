@@ -13,8 +13,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::lanes::{Lanes, Vectors};
-use crate::recurrence::harmonics;
-use crate::{Basis, count};
+use crate::recurrence::{harmonics, harmonics_by_band};
+use crate::{Basis, MAX_BANDS, count};
 
 /// Directions in a block: those of one 64-byte cache line, 16 in f32 and 8 in f64.
 pub const fn lanes<R>() -> usize {
@@ -30,6 +30,14 @@ pub const fn values_length<R>(bands: usize, directions: usize) -> usize {
 pub const fn gradients_length<R>(bands: usize, directions: usize) -> usize {
     4 * values_length::<R>(bands, directions)
 }
+
+/// Bytes of output from which on evaluation goes band by band: in cache order by order is up to three
+/// times as fast, in main memory band by band is 1.3 to 1.5 times as fast (values alone, 8 bands and
+/// more).
+const OUT_OF_CACHE: usize = 8 << 20;
+
+/// Bands from which on that is so.
+const BY_BAND: usize = 8;
 
 impl<R: Vectors> Basis<R> {
     /// Y_lm at unit directions given by their components; `values` holds [`values_length`] numbers.
@@ -69,6 +77,8 @@ fn blocks<R: Vectors, S: Simd, const GRADIENT: bool>(
     let lanes = const { lanes::<R>() };
     let rows = if GRADIENT { 4 } else { 1 };
     let stride = rows * lanes;
+    let by_band =
+        size_of_val(output) >= OUT_OF_CACHE && (BY_BAND..=MAX_BANDS).contains(&basis.bands());
     for (j, block) in output.chunks_exact_mut(count(basis.bands()) * stride).enumerate() {
         let mut padded = [[R::zero(); 16], [R::zero(); 16], [R::one(); 16]];
         for (to, from) in padded.iter_mut().zip(points) {
@@ -85,18 +95,27 @@ fn blocks<R: Vectors, S: Simd, const GRADIENT: bool>(
                 scale = Lanes::inverse_length(direction);
                 direction = [direction[0] * scale, direction[1] * scale, direction[2] * scale];
             }
-            harmonics::<R, _, GRADIENT>(
-                basis.recurrence(),
-                direction,
-                scale,
-                #[inline(always)]
-                |lm, results| {
-                    let row = &mut block[lm * stride..(lm + 1) * stride];
-                    for component in 0..rows {
-                        results[component].store(&mut row[component * lanes..][at..end]);
-                    }
-                },
-            );
+            macro_rules! write {
+                ($form:ident) => {
+                    $form::<R, _, GRADIENT>(
+                        basis.recurrence(),
+                        direction,
+                        scale,
+                        #[inline(always)]
+                        |lm, results| {
+                            let row = &mut block[lm * stride..(lm + 1) * stride];
+                            for component in 0..rows {
+                                results[component].store(&mut row[component * lanes..][at..end]);
+                            }
+                        },
+                    )
+                };
+            }
+            if by_band {
+                write!(harmonics_by_band);
+            } else {
+                write!(harmonics);
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Mul;
 
-use crate::Real;
+use crate::{MAX_BANDS, Real};
 
 /// What the recurrence computes with: R itself, or a vector of R, one lane per direction.
 pub(crate) trait Number<R>: Copy + Mul<Output = Self> {
@@ -71,6 +71,18 @@ pub(crate) struct Step<R> {
     d_from_q: R,
 }
 
+impl<R: Real> Step<R> {
+    /// (Q, D) of band l from those of band l − 1.
+    #[inline(always)]
+    fn advance<N: Number<R>>(&self, z: N, square: N, q: N, slope: N) -> (N, N) {
+        let turned = square.times(self.q_from_d) * slope;
+        (
+            z.times(self.q_from_q).mul_sub(q, turned),
+            z.times(self.d_from_d).mul_add(slope, q.times(self.d_from_q)),
+        )
+    }
+}
+
 /// Tables for a number of bands.
 #[derive(Clone, Debug)]
 pub(crate) struct Recurrence<R> {
@@ -134,9 +146,7 @@ pub(crate) fn harmonics<R: Real, N: Number<R>, const GRADIENT: bool>(
         let (mut q, mut slope) = (z.constant(tables.diagonal[m]), zero);
         column.emit::<GRADIENT>(m, z, q, slope, &mut write);
         for (l, step) in (m + 1..bands).zip(&mut steps) {
-            let turned = square.times(step.q_from_d) * slope;
-            slope = z.times(step.d_from_d).mul_add(slope, q.times(step.d_from_q));
-            q = z.times(step.q_from_q).mul_sub(q, turned);
+            (q, slope) = step.advance(z, square, q, slope);
             column.emit::<GRADIENT>(l, z, q, slope, &mut write);
         }
         let [u, v] = power;
@@ -145,7 +155,42 @@ pub(crate) fn harmonics<R: Real, N: Number<R>, const GRADIENT: bool>(
     }
 }
 
+/// Like [`harmonics`], band by band instead of order by order, for 2 … [`MAX_BANDS`] bands: all columns
+/// stay in the first-level cache, and results come in the order of memory. Where they leave the cache
+/// that is worth more than the loads that it costs.
+#[inline(always)]
+pub(crate) fn harmonics_by_band<R: Real, N: Number<R>, const GRADIENT: bool>(
+    tables: &Recurrence<R>,
+    [x, y, z]: [N; 3],
+    scale: N,
+    mut write: impl FnMut(usize, [N; 4]),
+) {
+    let bands = tables.bands;
+    let along = [x * scale, y * scale, scale];
+    let square = x.mul_add(x, y * y);
+    let zero = z.constant(R::zero());
+    let (mut before, mut power) = ([zero; 2], [z.constant(R::one()), zero]);
+    let first = Column::new(0, before, power, along);
+    let mut columns = [(first, zero, zero); MAX_BANDS];
+    for l in 0..bands {
+        let mut at = l.wrapping_sub(1);
+        for (m, (column, q, slope)) in columns[..l].iter_mut().enumerate() {
+            (*q, *slope) = tables.steps[at].advance(z, square, *q, *slope);
+            column.emit::<GRADIENT>(l, z, *q, *slope, &mut write);
+            at += bands - 2 - m;
+        }
+        let column = Column::new(l, before, power, along);
+        let q = z.constant(tables.diagonal[l]);
+        column.emit::<GRADIENT>(l, z, q, zero, &mut write);
+        columns[l] = (column, q, zero);
+        let [u, v] = power;
+        before = power;
+        power = [y.negative_mul_add(v, x * u), y.mul_add(u, x * v)];
+    }
+}
+
 /// What all bands of one order ±m share, gradients' `scale` included.
+#[derive(Clone, Copy)]
 struct Column<R, N> {
     m: usize,
     order: R,

@@ -167,3 +167,21 @@ fn batch_values_are_those_with_gradients() {
         }
     }
 }
+
+#[test]
+fn long_batches_are_short_ones() {
+    let basis = Basis::<f32>::new(MAX_BANDS);
+    let angles = || (0..4_096).map(|i| i as f32 * 0.01);
+    let x: Vec<f32> = angles().map(|angle| 0.8 * angle.cos()).collect();
+    let y: Vec<f32> = angles().map(|angle| 0.8 * angle.sin()).collect();
+    let z = vec![0.6; x.len()];
+    let mut long = vec![0.0; gradients_length::<f32>(MAX_BANDS, x.len())];
+    basis.evaluate_batch_with_gradients([&x, &y, &z], &mut long);
+    let block = lanes::<f32>();
+    let mut short = vec![0.0; gradients_length::<f32>(MAX_BANDS, block)];
+    let blocks = x.chunks(block).zip(y.chunks(block)).zip(z.chunks(block));
+    for (long, ((x, y), z)) in long.chunks(short.len()).zip(blocks) {
+        basis.evaluate_batch_with_gradients([x, y, z], &mut short);
+        assert_eq!(long, short);
+    }
+}
