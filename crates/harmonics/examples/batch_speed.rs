@@ -1,5 +1,6 @@
 //! Times batch evaluation on one thread: for scripts/compare-sphericart. Prints a JSON object of
-//! nanoseconds per direction by cell, `scalar kind l_max directions`; outputs are written again and
+//! nanoseconds per direction by cell, `scalar kind l_max directions` (`-fill`: filling
+//! the same memory with a constant, the limit of writing); outputs are written again and
 //! again into the same memory. With `errors` as argument, the largest errors of f32 by `kind l_max`.
 
 use std::hint::black_box;
@@ -36,12 +37,16 @@ fn measure<R: Vectors>(scalar: &str, l_max: usize, directions: usize, cells: &mu
     let mut values = vec![R::zero(); values_length::<R>(bands, directions)];
     let time = median(directions, || basis.evaluate_batch([&x, &y, &z], black_box(&mut values)));
     cells.push(format!("\"{scalar} values {l_max} {directions}\": {time:.3}"));
+    let time = median(directions, || black_box(&mut values).fill(R::one()));
+    cells.push(format!("\"{scalar} values-fill {l_max} {directions}\": {time:.3}"));
     drop(values);
     let mut output = vec![R::zero(); gradients_length::<R>(bands, directions)];
     let time = median(directions, || {
         basis.evaluate_batch_with_gradients_at([&x, &y, &z], black_box(&mut output));
     });
     cells.push(format!("\"{scalar} gradients {l_max} {directions}\": {time:.3}"));
+    let time = median(directions, || black_box(&mut output).fill(R::one()));
+    cells.push(format!("\"{scalar} gradients-fill {l_max} {directions}\": {time:.3}"));
 }
 
 /// Largest absolute error of f32 against f64 at the same points.

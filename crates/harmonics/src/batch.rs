@@ -31,9 +31,8 @@ pub const fn gradients_length<R>(bands: usize, directions: usize) -> usize {
     4 * values_length::<R>(bands, directions)
 }
 
-/// Bytes of output from which on evaluation goes band by band: in cache order by order is up to three
-/// times as fast, in main memory band by band is 1.3 to 1.5 times as fast (values alone, 8 bands and
-/// more).
+/// Bytes of output from which on evaluation goes band by band. In cache, order by order is faster; in main
+/// memory, writing in the order of memory is.
 const OUT_OF_CACHE: usize = 8 << 20;
 
 /// Bands from which on that is so.

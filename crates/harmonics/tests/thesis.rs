@@ -25,7 +25,7 @@ fn close(
 proptest! {
     // |z| ≤ 0.99: these forms divide by sin θ.
     #[test]
-    fn spherical_gradients(z in -0.99..0.99_f64, angle in 0.0..6.28_f64, bands in 1..=MAX_BANDS) {
+    fn spherical_gradients(z in -0.99..0.99_f64, angle in 0.0..std::f64::consts::TAU, bands in 1..=MAX_BANDS) {
         let radius = (1.0 - z * z).sqrt();
         let p = [radius * angle.cos(), radius * angle.sin(), z];
         let tables = SphericalGradients::<f64>::new(bands);
@@ -41,7 +41,7 @@ proptest! {
     }
 
     #[test]
-    fn polynomials(z in -1.0..1.0_f64, angle in 0.0..6.28_f64, bands in 1..=10_usize) {
+    fn polynomials(z in -1.0..1.0_f64, angle in 0.0..std::f64::consts::TAU, bands in 1..=10_usize) {
         let radius = (1.0 - z * z).sqrt();
         let p = [radius * angle.cos(), radius * angle.sin(), z];
         let form = Polynomials::<f64>::new(bands);
