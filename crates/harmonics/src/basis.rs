@@ -1,77 +1,96 @@
-//! Values and gradients of the basis at one direction, by the normalised solid-harmonic recurrence:
-//! no poles, no trigonometry, no normalisation roots at run time.
+//! Values and gradients of the basis by the normalised solid-harmonic recurrence: no poles, no
+//! trigonometry, no normalisation roots at run time.
 //!
-//! The homogeneous solid harmonic R_lm = ρ^l Y_lm is a polynomial in x, y, z: with
-//! U_m + iV_m = (x + iy)^m and Q_l^m(z, ρ²) its normalised z-part, R_lm = Q_l^m U_m and
-//! R_l,−m = Q_l^m V_m. Folding the normalisation into the recurrence (Sloan 2013, "Efficient
-//! Spherical Harmonic Evaluation") keeps f32 accurate where the unnormalised Q overflows into noise
-//! near l = 16.
+//! On the unit sphere Y_lm = Q_l^m(z) U_m and Y_l,−m = Q_l^m(z) V_m with U_m + iV_m = (x + iy)^m and
+//! Q_l^m = √2 K_l^m dᵐP_l/dzᵐ (√2 for m > 0 only). The normalisation is folded into the recurrence
+//! (Sloan 2013, "Efficient Spherical Harmonic Evaluation"): unnormalised, f32 is noise near l = 16.
+//! Deviation from Sloan: Q and dQ/dz advance together (`recurrence.rs` says why).
+//!
+//! # Gradient
+//! With D = dQ/dz the gradient of Y(p/|p|) at |p| = 1, which is tangential, is
+//! ∂x = m Q U_{m−1} + x E U_m, ∂y = −m Q V_{m−1} + y E U_m, ∂z = (D + z E) U_m for m ≥ 0 and, for −m,
+//! ∂x = m Q V_{m−1} + x E V_m, ∂y = m Q U_{m−1} + y E V_m, ∂z = (D + z E) V_m, where E = −(m Q + z D).
+//! Nothing is divided by sin θ, so there are no poles (thesis 3.15 and 3.20 have them).
+//!
+//! # Conditioning
+//! What is computed is the polynomial above at the components as given. A component off by δ moves
+//! it by up to l(l + 1)/2 δ of the band's maximum (at the pole): directions rounded to f32 do not
+//! determine band 29 better than 3e-5 there.
 
-use crate::{Real, index};
+use crate::Real;
+use crate::recurrence::{Recurrence, harmonics};
 
 /// Tables of the recurrences for a number of bands.
 #[derive(Clone, Debug)]
 pub struct Basis<R> {
-    bands: usize,
-    /// Q_m^m, √2 of m > 0 included.
-    diagonal: Vec<R>,
-    /// (a, b, c) of l ≥ m at `l (l + 1) / 2 + m`:
-    /// Q_l^m = a z Q_{l−1}^m − b ρ² Q_{l−2}^m and ∂_z R_lm = c R_{l−1,m}.
-    recurrence: Vec<[R; 3]>,
+    recurrence: Recurrence<R>,
 }
 
 impl<R: Real> Basis<R> {
     /// Tables for `bands` ≥ 1 bands.
     pub fn new(bands: usize) -> Self {
-        assert!(bands >= 1, "an expansion has at least one band");
-        let mut diagonal = Vec::with_capacity(bands);
-        let mut value = (0.25 / std::f64::consts::PI).sqrt();
-        for m in 0..bands {
-            if m > 0 {
-                let m = m as f64;
-                value *= ((2.0 * m + 1.0) / (2.0 * m)).sqrt();
-            }
-            let factor = if m > 0 { std::f64::consts::SQRT_2 } else { 1.0 };
-            diagonal.push(R::of(value * factor));
-        }
-        let recurrence = (0..bands)
-            .flat_map(|l| (0..=l).map(move |m| (l as f64, m as f64)))
-            .map(|(l, m)| {
-                if m == l {
-                    return [R::zero(); 3];
-                }
-                let a = |l: f64| ((4.0 * l * l - 1.0) / (l * l - m * m)).sqrt();
-                let b = if l - 1.0 > m { a(l) / a(l - 1.0) } else { 0.0 };
-                let c = ((2.0 * l + 1.0) * (l * l - m * m) / (2.0 * l - 1.0)).sqrt();
-                [R::of(a(l)), R::of(b), R::of(c)]
-            })
-            .collect();
-        Self { bands, diagonal, recurrence }
+        Self { recurrence: Recurrence::new(bands) }
     }
 
     /// Number of bands.
     pub fn bands(&self) -> usize {
-        self.bands
+        self.recurrence.bands
+    }
+
+    pub(crate) fn recurrence(&self) -> &Recurrence<R> {
+        &self.recurrence
     }
 
     /// Writes Y_lm(direction) to `values[index(l, m)]`; `values` holds `bands²` numbers.
-    pub fn evaluate(&self, [x, y, z]: [R; 3], values: &mut [R]) {
-        let n = self.bands;
+    pub fn evaluate(&self, direction: [R; 3], values: &mut [R]) {
+        let n = self.bands();
         assert_eq!(values.len(), n * n, "bands² values");
-        let (mut u, mut v) = (R::one(), R::zero());
-        for m in 0..n {
-            let (mut before, mut q) = (R::zero(), self.diagonal[m]);
-            for l in m..n {
-                if l > m {
-                    let [a, b, _] = self.recurrence[l * (l + 1) / 2 + m];
-                    (before, q) = (q, a * z * q - b * before);
-                }
-                values[index(l, m as isize)] = q * u;
-                if m > 0 {
-                    values[index(l, -(m as isize))] = q * v;
-                }
-            }
-            (u, v) = (x * u - y * v, x * v + y * u);
+        harmonics::<R, R, false>(&self.recurrence, direction, R::one(), |at, [value, ..]| {
+            values[at] = value;
+        });
+    }
+
+    /// Writes Y_lm(direction) to `values[index(l, m)]` and the Cartesian components of the gradient of
+    /// Y_lm(p/|p|) at p = `direction` (a unit vector) to `gradients[axis][index(l, m)]`: tangential,
+    /// per radian. Each slice holds `bands²` numbers.
+    pub fn evaluate_with_gradient(
+        &self,
+        direction: [R; 3],
+        values: &mut [R],
+        gradients: [&mut [R]; 3],
+    ) {
+        self.write_with_gradient(direction, R::one(), values, gradients);
+    }
+
+    /// Like [`Self::evaluate_with_gradient`] at the direction of `point` ≠ 0, with the gradient per
+    /// displacement of the point: ∇_p Y_lm(p/|p|), which is the gradient on the sphere over |p|.
+    pub fn evaluate_with_gradient_at(
+        &self,
+        point: [R; 3],
+        values: &mut [R],
+        gradients: [&mut [R]; 3],
+    ) {
+        let [x, y, z] = point;
+        let inverse = (x * x + y * y + z * z).sqrt().recip();
+        assert!(inverse.is_finite(), "a point with a direction, not {point:?}");
+        let direction = point.map(|component| component * inverse);
+        self.write_with_gradient(direction, inverse, values, gradients);
+    }
+
+    fn write_with_gradient(
+        &self,
+        direction: [R; 3],
+        scale: R,
+        values: &mut [R],
+        [gx, gy, gz]: [&mut [R]; 3],
+    ) {
+        let count = crate::count(self.bands());
+        for slice in [&*values, gx, gy, gz] {
+            assert_eq!(slice.len(), count, "bands² numbers");
         }
+        harmonics::<R, R, true>(&self.recurrence, direction, scale, |at, [value, x, y, z]| {
+            values[at] = value;
+            (gx[at], gy[at], gz[at]) = (x, y, z);
+        });
     }
 }

@@ -12,19 +12,24 @@
 #![forbid(unsafe_code)]
 
 pub mod basis;
+pub mod batch;
 pub mod clamped_cosine;
 pub mod convolution;
 pub mod hemispherical;
+mod lanes;
 pub mod product;
 pub mod projection;
 pub mod quadrature;
 mod real;
+mod recurrence;
 pub mod rotation;
+pub mod thesis;
 pub mod wgsl;
 pub mod window;
 pub mod zonal;
 
 pub use basis::Basis;
+pub use lanes::Vectors;
 pub use real::Real;
 
 /// The largest number of bands that this crate is tested for.
