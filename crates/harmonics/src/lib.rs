@@ -13,6 +13,7 @@
 
 pub mod basis;
 pub mod batch;
+mod column;
 mod lanes;
 pub mod quadrature;
 mod real;
