@@ -1,4 +1,4 @@
-//! Vectors of the widest kind that a machine has, as the numbers of [`crate::recurrence`].
+//! Vectors of the widest kind that a machine has, as the numbers of [`crate::column`].
 
 use std::marker::PhantomData;
 use std::ops::Mul;
@@ -7,7 +7,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, SimdFloatElement};
 
 use crate::Real;
-use crate::recurrence::Number;
+use crate::column::Number;
 
 /// A scalar that has SIMD vectors.
 pub trait Vectors: Real + SimdFloatElement {

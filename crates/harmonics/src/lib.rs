@@ -14,6 +14,7 @@
 pub mod basis;
 pub mod batch;
 pub mod clamped_cosine;
+mod column;
 pub mod convolution;
 pub mod hemispherical;
 mod lanes;
