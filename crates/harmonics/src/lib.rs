@@ -16,6 +16,7 @@ pub mod batch;
 pub mod clamped_cosine;
 mod column;
 pub mod convolution;
+pub mod dering;
 pub mod hemispherical;
 mod lanes;
 pub mod product;

@@ -12,11 +12,13 @@ pub enum Window {
     Lanczos,
     /// 0.54 + 0.46 cos(π l/w).
     Hamming,
+    /// (sin(π l/w)/(π l/w))⁴, of [`crate::dering`] (Sloan 2017).
+    SincFourth,
 }
 
 impl Window {
     /// Every window.
-    pub const ALL: [Self; 3] = [Self::Hann, Self::Lanczos, Self::Hamming];
+    pub const ALL: [Self; 4] = [Self::Hann, Self::Lanczos, Self::Hamming, Self::SincFourth];
 
     /// The weight of band `l` under a window of `width` w > 0 (in bands, not only whole ones). Bands
     /// from w on are cut: beyond it the formulas rise or change sign.
@@ -28,9 +30,10 @@ impl Window {
         let angle = R::PI() * ratio;
         match self {
             Self::Hann => R::of(0.5) + R::of(0.5) * angle.cos(),
-            Self::Lanczos if l == 0 => R::one(),
-            Self::Lanczos => angle.sin() / angle,
             Self::Hamming => R::of(0.54) + R::of(0.46) * angle.cos(),
+            Self::Lanczos | Self::SincFourth if l == 0 => R::one(),
+            Self::Lanczos => angle.sin() / angle,
+            Self::SincFourth => (angle.sin() / angle).powi(4),
         }
     }
 
