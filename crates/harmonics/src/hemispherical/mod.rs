@@ -45,7 +45,7 @@ impl<R: Real> HemisphericalBasis<R> {
         let stretch = stretch(direction[2]);
         self.basis.evaluate(spread(direction, stretch), values);
         for value in values {
-            *value = *value * R::SQRT_2();
+            *value *= R::SQRT_2();
         }
     }
 
@@ -70,7 +70,7 @@ impl<R: Real> HemisphericalBasis<R> {
         let slope = stretch / ((z + z) * (R::one() + z));
         let root = R::SQRT_2();
         for (i, value) in values.iter_mut().enumerate() {
-            *value = *value * root;
+            *value *= root;
             let rise = slope * (x * gx[i] + y * gy[i]) + gz[i] + gz[i];
             let (a, b) = (stretch * gx[i], stretch * gy[i]);
             let radial = x * a + y * b + z * rise;
