@@ -73,6 +73,36 @@ proptest! {
     }
 }
 
+/// Against differences of order 8, which are good to 1e-10 at this step; the normal included.
+#[test]
+fn gradients_are_those_of_the_values() {
+    let (bands, step) = (6, 2e-3);
+    let basis = HemisphericalBasis::<f64>::new(bands);
+    for direction in [[0.0, 0.0, 1.0], [1e-9, 0.0, 1.0], [0.6, 0.0, 0.8], [-0.48, 0.64, 0.6]] {
+        let mut values = vec![0.0; count(bands)];
+        let mut gradients = [0; 3].map(|_| vec![0.0; count(bands)]);
+        let slices = gradients.each_mut().map(|axis| &mut axis[..]);
+        basis.evaluate_with_gradient(direction, &mut values, slices);
+        assert_eq!(values, above(bands, direction));
+        for (axis, gradient) in gradients.iter().enumerate() {
+            let mut slope = vec![0.0; count(bands)];
+            for (steps, weight) in [(1, 0.8), (2, -0.2), (3, 4.0 / 105.0), (4, -1.0 / 280.0)] {
+                for sign in [1.0, -1.0] {
+                    let mut p = direction;
+                    p[axis] += sign * f64::from(steps) * step;
+                    let length = p.iter().map(|c| c * c).sum::<f64>().sqrt();
+                    for (slope, h) in slope.iter_mut().zip(above(bands, p.map(|c| c / length))) {
+                        *slope += sign * weight * h / step;
+                    }
+                }
+            }
+            for (given, difference) in gradient.iter().zip(&slope) {
+                assert!((given - difference).abs() < 1e-9, "{direction:?} {given} {difference}");
+            }
+        }
+    }
+}
+
 #[test]
 fn only_m_0_is_left_at_the_horizon() {
     let h = above(6, [0.6, -0.8, 0.0]);

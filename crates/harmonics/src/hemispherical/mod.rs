@@ -45,7 +45,38 @@ impl<R: Real> HemisphericalBasis<R> {
         let stretch = stretch(direction[2]);
         self.basis.evaluate(spread(direction, stretch), values);
         for value in values {
-            *value = *value * R::SQRT_2();
+            *value *= R::SQRT_2();
+        }
+    }
+
+    /// As [`Self::evaluate`], with the Cartesian components of the tangential gradient of H_lm on the
+    /// unit sphere, per radian, in `gradients[axis][index(l, m)]`; finite at the normal.
+    ///
+    /// # Panics
+    /// On the horizon and below it, z ≤ 0: the slopes of m = ±1 grow like 1/√z.
+    pub fn evaluate_with_gradient(
+        &self,
+        direction: [R; 3],
+        values: &mut [R],
+        gradients: [&mut [R]; 3],
+    ) {
+        let [x, y, z] = direction;
+        assert!(z > R::zero(), "no gradient at z = {z}");
+        let stretch = stretch(z);
+        let [gx, gy, gz] = gradients;
+        let spread = spread(direction, stretch);
+        self.basis.evaluate_with_gradient(spread, values, [&mut *gx, &mut *gy, &mut *gz]);
+        // dg/dz.
+        let slope = stretch / ((z + z) * (R::one() + z));
+        let root = R::SQRT_2();
+        for (i, value) in values.iter_mut().enumerate() {
+            *value *= root;
+            let rise = slope * (x * gx[i] + y * gy[i]) + gz[i] + gz[i];
+            let (a, b) = (stretch * gx[i], stretch * gy[i]);
+            let radial = x * a + y * b + z * rise;
+            gx[i] = root * (a - radial * x);
+            gy[i] = root * (b - radial * y);
+            gz[i] = root * (rise - radial * z);
         }
     }
 }
