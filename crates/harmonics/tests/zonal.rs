@@ -98,69 +98,6 @@ fn a_light_that_holds_the_point_is_the_whole_hemisphere_and_the_edge_is_continuo
     assert_eq!(Sighting::of_disk([1.0, 0.0, 1.0], f64::INFINITY), None);
 }
 
-/// Tangential gradient of the basis by differences along two tangents.
-fn tangential(basis: &Basis<f64>, offset: [f64; 3], i: usize) -> [f64; 3] {
-    let length = dot(&offset, &offset).sqrt();
-    let mut values = vec![0.0; count(basis.bands())];
-    [0, 1, 2].map(|axis| {
-        length
-            * derivative(offset[axis], 0.01, |moved| {
-                let mut at = offset;
-                at[axis] = moved;
-                let length = dot(&at, &at).sqrt();
-                basis.evaluate(at.map(|x| x / length), &mut values);
-                values[i]
-            })
-    })
-}
-
-/// Coefficients of a light.
-fn light(basis: &Basis<f64>, sighting: Sighting<f64>) -> Vec<f64> {
-    let mut scales = vec![0.0; basis.bands()];
-    let mut coefficients = vec![0.0; count(basis.bands())];
-    zonal::cap_stable(sighting.cap, &mut scales);
-    zonal::rotate(basis, &scales, sighting.direction, &mut coefficients);
-    coefficients
-}
-
-#[test]
-fn the_gradient_of_a_light_is_the_derivative_of_its_coefficients() {
-    let bands = 6;
-    let basis = Basis::<f64>::new(bands);
-    let place = |x: [f64; 3]| [0.3 - x[0], -1.1 - x[1], 2.0 - x[2]];
-    type See = fn([f64; 3], f64) -> Option<Sighting<f64>>;
-    for see in [Sighting::of_sphere as See, Sighting::of_disk] {
-        for point in [[0.0; 3], [0.3, -1.1, 0.0], [1.5, -1.1, 2.0]] {
-            let sighting = see(place(point), 0.7).expect("a direction");
-            let [mut scales, mut rates] = [vec![0.0; bands], vec![0.0; bands]];
-            zonal::cap_stable(sighting.cap, &mut scales);
-            zonal::cap_rate_stable(sighting.cap, sighting.cosine_rate, &mut rates);
-            let mut values = vec![0.0; count(bands)];
-            basis.evaluate(sighting.direction, &mut values);
-            let mut gradients = [(); 3].map(|()| vec![0.0; count(bands)]);
-            for i in 0..count(bands) {
-                let gradient = tangential(&basis, place(point), i);
-                for axis in 0..3 {
-                    gradients[axis][i] = gradient[axis];
-                }
-            }
-            let slices = gradients.each_mut().map(|axis| axis.as_mut_slice());
-            zonal::light_gradient(&sighting, &scales, &rates, &values, slices);
-            for axis in 0..3 {
-                for i in 0..count(bands) {
-                    let slope = derivative(point[axis], 0.01, |moved| {
-                        let mut at = point;
-                        at[axis] = moved;
-                        light(&basis, see(place(at), 0.7).expect("a direction"))[i]
-                    });
-                    let error = (gradients[axis][i] - slope).abs();
-                    assert!(error < 1e-9, "{point:?}, axis {axis}, {i}: {error}");
-                }
-            }
-        }
-    }
-}
-
 #[test]
 fn scales_from_coefficients_of_a_polynomial() {
     // z² = 2√π/3 Y_00 + (4/3)√(π/5) Y_20.

@@ -5,7 +5,7 @@ use manylights_harmonics::rotation::Matrix;
 use proptest::prelude::*;
 
 /// Unit vectors, uniform.
-pub fn direction() -> impl Strategy<Value = [f64; 3]> {
+pub(crate) fn direction() -> impl Strategy<Value = [f64; 3]> {
     (-1.0..1.0_f64, 0.0..std::f64::consts::TAU).prop_map(|(z, angle)| {
         let sine = (1.0 - z * z).sqrt();
         [sine * angle.cos(), sine * angle.sin(), z]
@@ -13,12 +13,12 @@ pub fn direction() -> impl Strategy<Value = [f64; 3]> {
 }
 
 /// Rotations, from unit quaternions.
-pub fn rotation() -> impl Strategy<Value = Matrix<f64>> {
+pub(crate) fn rotation() -> impl Strategy<Value = Matrix<f64>> {
     (direction(), 0.0..std::f64::consts::TAU).prop_map(|(axis, angle)| about(axis, angle))
 }
 
 /// The rotation about a unit axis (Rodrigues).
-pub fn about([x, y, z]: [f64; 3], angle: f64) -> Matrix<f64> {
+pub(crate) fn about([x, y, z]: [f64; 3], angle: f64) -> Matrix<f64> {
     let (s, c) = angle.sin_cos();
     let t = 1.0 - c;
     [
@@ -29,27 +29,27 @@ pub fn about([x, y, z]: [f64; 3], angle: f64) -> Matrix<f64> {
 }
 
 /// Q ω.
-pub fn turn(q: &Matrix<f64>, w: [f64; 3]) -> [f64; 3] {
+pub(crate) fn turn(q: &Matrix<f64>, w: [f64; 3]) -> [f64; 3] {
     q.map(|row| dot(&row, &w))
 }
 
 /// Σ a_i b_i.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Coefficients in −1 … 1 that look random and are the same in every run.
-pub fn coefficients(count: usize, seed: usize) -> Vec<f64> {
+pub(crate) fn coefficients(count: usize, seed: usize) -> Vec<f64> {
     (0..count).map(|i| ((i * i + 7 * seed) as f64 * 0.754_877_666 + seed as f64).sin()).collect()
 }
 
 /// The largest magnitude.
-pub fn largest(values: &[f64]) -> f64 {
+pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| value.abs().max(most))
 }
 
 /// The largest difference of two slices.
-pub fn difference(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn difference(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).fold(0.0, |most, (a, b)| {
         assert!(a.is_finite() && b.is_finite(), "{a} against {b}");
@@ -58,7 +58,7 @@ pub fn difference(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// df/dt at `t` by Richardson's extrapolation of central differences, step `h` and its halves.
-pub fn derivative(t: f64, h: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+pub(crate) fn derivative(t: f64, h: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     const LEVELS: usize = 5;
     let mut table = [0.0; LEVELS];
     for level in 0..LEVELS {
