@@ -1,16 +1,10 @@
-//! Values and gradients against truth: derivatives, addition theorem, batch, poles.
+//! Values and gradients against truth: derivatives, addition theorem, poles.
 
-use manylights_harmonics::batch::{gradients_length, lanes, values_length};
-use manylights_harmonics::{Basis, MAX_BANDS, Real, Vectors, count, index};
+mod common;
+
+use common::{evaluate, limits};
+use manylights_harmonics::{Basis, MAX_BANDS, count, index};
 use proptest::prelude::*;
-
-/// Values and gradients at a direction, [Y, ∂x, ∂y, ∂z] by coefficient.
-fn evaluate<R: Vectors>(basis: &Basis<R>, direction: [R; 3]) -> Vec<[f64; 4]> {
-    let zero = || vec![R::zero(); count(basis.bands())];
-    let (mut values, mut gx, mut gy, mut gz) = (zero(), zero(), zero(), zero());
-    basis.evaluate_with_gradient(direction, &mut values, [&mut gx, &mut gy, &mut gz]);
-    (0..values.len()).map(|i| [values[i], gx[i], gy[i], gz[i]].map(Real::to_f64)).collect()
-}
 
 fn values(basis: &Basis<f64>, p: [f64; 3]) -> Vec<f64> {
     let length = p.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -95,12 +89,8 @@ proptest! {
         let found = evaluate(&Basis::<f32>::new(MAX_BANDS), rounded);
         let truth = evaluate(&Basis::<f64>::new(MAX_BANDS), rounded.map(f64::from));
         for l in 0..MAX_BANDS {
-            let pi = std::f64::consts::PI;
-            let value_limit = ((2 * l + 1) as f64 / (4.0 * pi)).sqrt();
-            let gradient_limit = value_limit * ((l * (l + 1)) as f64 / 2.0).sqrt();
             for i in index(l, 0) - l..=index(l, 0) + l {
-                for c in 0..4 {
-                    let limit = if c == 0 { value_limit } else { gradient_limit };
+                for (c, limit) in limits(l).into_iter().enumerate() {
                     let error = (found[i][c] - truth[i][c]).abs();
                     prop_assert!(error <= 1e-5 * limit, "l {l}, {i}, {c}: {error} of {limit}");
                 }
@@ -114,74 +104,5 @@ proptest! {
             // Gradients are up to 90 here.
             prop_assert!((p[0] * x + p[1] * y + p[2] * z).abs() < 1e-12);
         }
-    }
-}
-
-fn batch_is_single<R: Vectors>(tolerance: f64) {
-    let points: Vec<[R; 3]> = (0..37)
-        .map(|i| [(i * 7 % 11) as f64 - 5.0, (i * 5 % 13) as f64 - 6.0, (i * 3 % 7) as f64 - 2.5])
-        .map(|p| p.map(|c| R::of(c * 0.3)))
-        .collect();
-    let axes = [0, 1, 2].map(|axis| points.iter().map(|p| p[axis]).collect::<Vec<R>>());
-    for bands in 1..=MAX_BANDS {
-        let basis = Basis::<R>::new(bands);
-        let mut output = vec![R::nan(); gradients_length::<R>(bands, points.len())];
-        basis.evaluate_batch_with_gradients_at([&axes[0], &axes[1], &axes[2]], &mut output);
-        assert!(output.iter().all(|value| value.is_finite()));
-        for (i, point) in points.iter().enumerate() {
-            let zero = || vec![R::zero(); count(bands)];
-            let mut single = [zero(), zero(), zero(), zero()];
-            let [value, x, y, z] = &mut single;
-            basis.evaluate_with_gradient_at(*point, value, [x, y, z]);
-            for (c, single) in single.iter().enumerate() {
-                for (lm, &single) in single.iter().enumerate() {
-                    let row = (i / lanes::<R>() * count(bands) + lm) * 4 + c;
-                    let found = output[row * lanes::<R>() + i % lanes::<R>()];
-                    let error = Real::to_f64(found - single).abs();
-                    assert!(error < tolerance, "bands {bands}, point {i}, {lm}, {c}: {error}");
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn batch_is_single_in_both_precisions() {
-    // Fused and unfused rounding differ; directions are normalised in each. Gradients are up to 90.
-    batch_is_single::<f64>(1e-11);
-    batch_is_single::<f32>(5e-3);
-}
-
-#[test]
-fn batch_values_are_those_with_gradients() {
-    let direction = [[0.6_f32, 0.0], [0.0, 0.0], [0.8, -1.0]];
-    for bands in 1..=MAX_BANDS {
-        let basis = Basis::<f32>::new(bands);
-        let axes = [&direction[0][..], &direction[1], &direction[2]];
-        let mut values = vec![0.0; values_length::<f32>(bands, 2)];
-        let mut output = vec![0.0; gradients_length::<f32>(bands, 2)];
-        basis.evaluate_batch(axes, &mut values);
-        basis.evaluate_batch_with_gradients(axes, &mut output);
-        for (row, both) in values.chunks(lanes::<f32>()).zip(output.chunks(4 * lanes::<f32>())) {
-            assert_eq!(row, &both[..lanes::<f32>()]);
-        }
-    }
-}
-
-#[test]
-fn long_batches_are_short_ones() {
-    let basis = Basis::<f32>::new(MAX_BANDS);
-    let angles = || (0..4_096).map(|i| i as f32 * 0.01);
-    let x: Vec<f32> = angles().map(|angle| 0.8 * angle.cos()).collect();
-    let y: Vec<f32> = angles().map(|angle| 0.8 * angle.sin()).collect();
-    let z = vec![0.6; x.len()];
-    let mut long = vec![0.0; gradients_length::<f32>(MAX_BANDS, x.len())];
-    basis.evaluate_batch_with_gradients([&x, &y, &z], &mut long);
-    let block = lanes::<f32>();
-    let mut short = vec![0.0; gradients_length::<f32>(MAX_BANDS, block)];
-    let blocks = x.chunks(block).zip(y.chunks(block)).zip(z.chunks(block));
-    for (long, ((x, y), z)) in long.chunks(short.len()).zip(blocks) {
-        basis.evaluate_batch_with_gradients([x, y, z], &mut short);
-        assert_eq!(long, short);
     }
 }

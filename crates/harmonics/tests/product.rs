@@ -61,6 +61,25 @@ fn one_is_the_unit_of_the_product() {
 }
 
 #[test]
+fn the_product_is_commutative_and_where_nothing_is_cut_associative() {
+    // Three functions of degree 2 make one of degree 6.
+    let bands = 7;
+    let table = Product::<f64>::new(bands);
+    let [f, g, h] = [1, 2, 3].map(|seed| {
+        let mut function = coefficients(count(bands), seed);
+        function[count(3)..].fill(0.0);
+        function
+    });
+    let product = |f: &[f64], g: &[f64]| {
+        let mut product = vec![0.0; count(bands)];
+        table.apply(f, g, &mut product);
+        product
+    };
+    assert!(difference(&product(&f, &g), &product(&g, &f)) < 1e-15);
+    assert!(difference(&product(&product(&f, &g), &h), &product(&f, &product(&g, &h))) < 1e-12);
+}
+
+#[test]
 fn the_cosine_has_these_scales() {
     let bands = 30;
     let mut scales = vec![0.0; bands];

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 use manylights_harmonics::rotation::Matrix;
+use manylights_harmonics::{Basis, Real, count};
 use proptest::prelude::*;
 
 /// Unit vectors, uniform.
@@ -74,4 +75,19 @@ pub(crate) fn derivative(t: f64, h: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
         table[level] = value;
     }
     table[LEVELS - 1]
+}
+
+/// Values and gradients at a direction, [Y, ∂x, ∂y, ∂z] by coefficient.
+pub(crate) fn evaluate<R: Real>(basis: &Basis<R>, direction: [R; 3]) -> Vec<[f64; 4]> {
+    let zero = || vec![R::zero(); count(basis.bands())];
+    let (mut values, mut gx, mut gy, mut gz) = (zero(), zero(), zero(), zero());
+    basis.evaluate_with_gradient(direction, &mut values, [&mut gx, &mut gy, &mut gz]);
+    (0..values.len()).map(|i| [values[i], gx[i], gy[i], gz[i]].map(Real::to_f64)).collect()
+}
+
+/// The largest value and gradient of band `l` anywhere, by the addition theorem.
+pub(crate) fn limits(l: usize) -> [f64; 4] {
+    let value = ((2 * l + 1) as f64 / (4.0 * std::f64::consts::PI)).sqrt();
+    let gradient = value * ((l * (l + 1)) as f64 / 2.0).sqrt();
+    [value, gradient, gradient, gradient]
 }
