@@ -1,10 +1,10 @@
 //! Runs generated WGSL on the adapter at hand and compares it with f64.
 
-use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use manylights_gpu::{Binding, Dispatch, Gpu, Resource, link};
 use manylights_harmonics::wgsl::{Function, module};
+use manylights_harmonics::zonal::{Cap, cap_stable};
 use manylights_harmonics::{Basis, count};
 
 pub(crate) static GPU: LazyLock<Gpu> =
@@ -177,17 +177,10 @@ fn worst_in_bands(values: &[f64], truth: &[f64], parts: usize) -> f64 {
     (0..bands).map(error).fold(0.0, f64::max)
 }
 
-/// c_l in f64, by the recurrence of P'_l.
+/// c_l in f64.
 pub(crate) fn cap_truth(bands: usize, sine: f64) -> Vec<f64> {
     let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
-    let area = TAU * sine * sine;
-    let (mut before, mut slope) = (0.0, 1.0);
-    let mut scales = vec![area / (1.0 + cosine)];
-    for l in 1..bands {
-        let degree = l as f64;
-        scales.push(area * slope / (degree * (degree + 1.0)));
-        let next = (2.0 * degree + 1.0) * cosine * slope - (degree + 1.0) * before;
-        (before, slope) = (slope, next / degree);
-    }
+    let mut scales = vec![0.0; bands];
+    cap_stable(Cap { sine, cosine }, &mut scales);
     scales
 }

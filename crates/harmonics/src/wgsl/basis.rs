@@ -4,6 +4,10 @@ use super::constants::{diagonal, recurrence};
 use super::lines::{Factor, Lines, product, sum};
 use crate::{count, even_count, even_index, index};
 
+/// Up to here the three-term recurrence of Q_l^0 serves at the poles; it takes second differences
+/// there, and in f32 loses 1e-5 of band 29.
+const THREE_TERM_BANDS: usize = 10;
+
 /// What is in scope: U_m, V_m and Q_l^m.
 pub(super) struct Scope {
     bands: usize,
@@ -26,6 +30,9 @@ impl Scope {
         }
         if bands > 2 {
             lines.bind("z2", "z * z");
+        }
+        if bands > THREE_TERM_BANDS {
+            lines.bind("s2", "x * x + y * y");
         }
         let azimuth = Vec::with_capacity(bands);
         let z_parts = vec![Factor::Constant(0.0); even_count(bands)];
@@ -82,6 +89,7 @@ impl Scope {
                 let rest = a * b1 * diagonal + b * first;
                 format!("z * ({} * z2 - {})", number(a * a1 * first), number(rest))
             }
+            _ if m == 0 && self.bands > THREE_TERM_BANDS => return self.zonal_part(l),
             _ => {
                 let [a, b] = step(l);
                 let (one, two) = (self.q(l - 1, m), self.q(l - 2, m));
@@ -89,6 +97,27 @@ impl Scope {
             }
         };
         self.lines.bind(&name, expression)
+    }
+
+    /// Q_l^0 from Q and D = dQ/dz of band l − 1 ≥ 3: with r = √((2l + 1)/(2l − 1)),
+    /// Q_l = r z Q − (r/l)(x² + y²) D and D_l = r z D + r l Q.
+    fn zonal_part(&mut self, l: usize) -> Factor {
+        let number = Factor::Constant;
+        let before = l - 1;
+        if before == 3 {
+            let k = (7.0 / (4.0 * std::f64::consts::PI)).sqrt();
+            self.lines.bind("d3", format_args!("{} * z2 - {}", number(7.5 * k), number(1.5 * k)));
+        }
+        let degree = l as f64;
+        let r = ((2.0 * degree + 1.0) / (2.0 * degree - 1.0)).sqrt();
+        let (q, ratio) = (self.q(before, 0), number(r));
+        let (fall, rise) = (number(r / degree), number(r * degree));
+        if l + 1 < self.bands {
+            let slope = format!("{ratio} * z * d{before} + {rise} * {q}");
+            self.lines.bind(&format!("d{l}"), slope);
+        }
+        let value = format!("{ratio} * z * {q} - {fall} * s2 * d{before}");
+        self.lines.bind(&format!("q{l}_0"), value)
     }
 
     fn q(&self, l: usize, m: usize) -> Factor {
