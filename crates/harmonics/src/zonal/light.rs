@@ -67,15 +67,20 @@ pub fn light_gradient<R: Real>(
     let bands = scales.len();
     assert_eq!(rates.len(), bands, "one rate a band");
     assert_eq!(values.len(), count(bands), "bands² values");
-    let inverse = -R::one() / sighting.distance;
-    for (gradient, axis) in gradients.into_iter().zip(sighting.direction) {
+    let [gx, gy, gz] = gradients;
+    for gradient in [&*gx, gy, gz] {
         assert_eq!(gradient.len(), count(bands), "bands² gradients");
-        for l in 0..bands {
-            let (tangential, radial) = (scales[l] * inverse, rates[l] * axis);
-            let band = count(l)..count(l + 1);
-            for (component, &value) in gradient[band.clone()].iter_mut().zip(&values[band]) {
-                *component = tangential * *component - value * radial;
-            }
+    }
+    let inverse = -R::one() / sighting.distance;
+    let [x, y, z] = sighting.direction;
+    for (l, (&scale, &rate)) in scales.iter().zip(rates).enumerate() {
+        let (tangential, radial) = (scale * inverse, [rate * x, rate * y, rate * z]);
+        let band = count(l)..count(l + 1);
+        let rows = gx[band.clone()].iter_mut().zip(&mut gy[band.clone()]);
+        for (((x, y), z), &value) in rows.zip(&mut gz[band.clone()]).zip(&values[band]) {
+            *x = tangential * *x - value * radial[0];
+            *y = tangential * *y - value * radial[1];
+            *z = tangential * *z - value * radial[2];
         }
     }
 }
