@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 TOOLS = ROOT / "venv"
-RESULTS = ROOT / "results" / "path-tracer"
+RESULTS = ROOT / "results"
 
 
 def output(*command):
@@ -26,7 +26,7 @@ def install(*packages):
 
 
 def build(example):
-    """Builds an example of the path tracer and returns its program."""
+    """Builds an example of the workspace and returns its program."""
     output("cargo", "build", "--release", "--locked", "--workspace", "--example", example)
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     return target / "release" / "examples" / example
@@ -48,11 +48,12 @@ def provenance():
     }
 
 
-def record(name, result, lines):
+def record(name, result, lines, folder="path-tracer"):
     """Writes a result as JSON and as a Markdown table, and shows the table."""
-    RESULTS.mkdir(parents=True, exist_ok=True)
-    (RESULTS / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n")
+    results = RESULTS / folder
+    results.mkdir(parents=True, exist_ok=True)
+    (results / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n")
     origin = ", ".join(f"{key} {value}" for key, value in result["provenance"].items())
     text = "\n".join([*lines, "", f"Made by `scripts/{result['command']}`: {origin}.", ""])
-    (RESULTS / f"{name}.md").write_text(text)
+    (results / f"{name}.md").write_text(text)
     sys.stdout.write(text)

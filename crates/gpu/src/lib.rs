@@ -25,7 +25,7 @@ pub use device::Gpu;
 pub use error::Error;
 pub use frame::{GpuFrame, SurfaceRecord};
 pub use kernel::{Binding, Dispatch, Kernel, PassTime, Resource};
-pub use link::{Feature, link};
+pub use link::{Feature, Module, link};
 pub use projection::Projection;
 pub use report::AdapterReport;
 pub use rsm::{Cell, Map, maps};

@@ -10,6 +10,9 @@ use crate::Error;
 /// A switch of conditional translation (`@if(name)`) and its position.
 pub type Feature<'a> = (&'a str, bool);
 
+/// A module made at run time, which a shader may import as `package::NAME`: its name and its text.
+pub type Module<'a> = (&'a str, &'a str);
+
 /// Modules that every shader may import as `package::NAME`.
 const SHARED: [(&str, &str); 3] = [
     ("brdf", include_str!("shaders/brdf.wesl")),
@@ -17,15 +20,21 @@ const SHARED: [(&str, &str); 3] = [
     ("scene", include_str!("shaders/scene.wesl")),
 ];
 
-/// The WGSL of the module `source`, with what it imports and nothing that it does not reach: a
-/// pipeline for a scene without a lobe holds no code of that lobe.
+/// The WGSL of the module `source`, with what it imports from the shared modules and from `modules`
+/// and nothing that it does not reach: a pipeline for a scene without a lobe holds no code of that
+/// lobe.
 ///
 /// # Errors
 /// A syntax error, an unknown import or a feature without a position, with the module's name.
-pub fn link(name: &str, source: &str, features: &[Feature<'_>]) -> Result<String, Error> {
+pub fn link(
+    name: &str,
+    source: &str,
+    modules: &[Module<'_>],
+    features: &[Feature<'_>],
+) -> Result<String, Error> {
     let mut resolver = VirtualResolver::new();
-    for (shared, text) in SHARED {
-        resolver.add_module(path(shared), Cow::Borrowed(text));
+    for (imported, text) in SHARED.iter().chain(modules) {
+        resolver.add_module(path(imported), Cow::Borrowed(text));
     }
     resolver.add_module(path(name), Cow::Borrowed(source));
     let flags = features.iter().map(|&(name, on)| (name.to_owned(), on.into())).collect();

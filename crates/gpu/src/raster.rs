@@ -24,7 +24,7 @@ pub(crate) fn rasterise(
     let numbers = texture(gpu, projection, wgpu::TextureFormat::R32Uint);
     let numbers = numbers.create_view(&Default::default());
     let mut times = draw(gpu, scene, projection, &uniform, &numbers)?;
-    let wgsl = link("resolve", include_str!("shaders/resolve.wesl"), &[])?;
+    let wgsl = link("resolve", include_str!("shaders/resolve.wesl"), &[], &[])?;
     let mut bindings = vec![Binding::Uniform];
     bindings.extend([Binding::Storage; 5]);
     bindings.extend([Binding::TextureUint, Binding::StorageMut]);
@@ -126,7 +126,7 @@ impl Gpu {
         if let Some(pipeline) = self.shared.visibility.get() {
             return Ok(pipeline.clone());
         }
-        let wgsl = link("visibility", include_str!("shaders/visibility.wesl"), &[])?;
+        let wgsl = link("visibility", include_str!("shaders/visibility.wesl"), &[], &[])?;
         let pipeline = self.checked("visibility", || self.create_visibility_pipeline(&wgsl))?;
         Ok(self.shared.visibility.get_or_init(|| pipeline).clone())
     }

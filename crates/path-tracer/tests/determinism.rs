@@ -61,7 +61,7 @@ fn the_method_makes_the_reference() {
         gpu: None,
     };
     assert_eq!(PathTracer.processor(), Processor::Cpu);
-    let parameters = Parameters::new(PathTracer.parameters(), [("samples", "17")]).expect("valid");
+    let parameters = Parameters::new(PathTracer.parameters(), [("samples", "32")]).expect("valid");
     let mut run = PathTracer.prepare(&frame, &parameters).expect("a run");
     assert!(!run.step().expect("a step").finished());
     assert!(run.step().expect("a step").finished());

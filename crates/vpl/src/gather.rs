@@ -35,7 +35,7 @@ pub fn linked_shader(
         ("clamped", settings.clamp.is_some()),
         ("attenuated", settings.radius.is_some()),
     ];
-    link("gather", include_str!("shaders/gather.wesl"), &features)
+    link("gather", include_str!("shaders/gather.wesl"), &[], &features)
 }
 
 #[derive(Clone, Copy, Pod, Zeroable)]

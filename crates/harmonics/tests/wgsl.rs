@@ -1,0 +1,262 @@
+//! The generated WGSL, run on the CPU in f32, against f64. The adapter's own run is in the
+//! workspace's tests.
+
+mod straight_line;
+
+use std::f64::consts::{PI, TAU};
+
+use manylights_harmonics::projection::fibonacci;
+use manylights_harmonics::quadrature::gauss_legendre;
+use manylights_harmonics::wgsl::{Function, module};
+use manylights_harmonics::zonal::{Cap, cap_rate_stable, cap_stable};
+use manylights_harmonics::{Basis, MAX_BANDS, count, even_index, index};
+use proptest::prelude::*;
+use straight_line::{Numbers, run};
+
+/// The poles, the axes, both with one small component, and some directions between.
+fn directions() -> Vec<[f32; 3]> {
+    let mut list = Vec::new();
+    for axis in 0..3 {
+        for sign in [1.0, -1.0] {
+            for small in [0.0, 1e-20, 1e-7, 1e-3, 0.1] {
+                let mut d = [0.0; 3];
+                d[axis] = sign;
+                d[(axis + 1) % 3] = small;
+                list.push(unit(d));
+            }
+        }
+    }
+    list.extend(fibonacci(40, [-1.0, 1.0]).map(|(d, _): ([f64; 3], f64)| unit(d)));
+    list
+}
+
+/// The direction of f32 components nearest to unit length among some beside the given one: a component
+/// off by δ moves band l by up to l(l + 1)/2 δ.
+fn unit(direction: [f64; 3]) -> [f32; 3] {
+    let largest = direction.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let error = |d: &[f32; 3]| (d.iter().map(|&c| f64::from(c).powi(2)).sum::<f64>() - 1.0).abs();
+    let candidates = (0..400).map(|i| {
+        let stretch = 1.0 + 1e-5 * f64::from(i);
+        let moved = direction.map(|c| if c.abs() < largest { c * stretch } else { c });
+        normalised(moved).map(|c| c as f32)
+    });
+    candidates.min_by(|a, b| error(a).total_cmp(&error(b))).expect("some candidates")
+}
+
+fn normalised(direction: [f64; 3]) -> [f64; 3] {
+    let length = direction.iter().map(|c| c * c).sum::<f64>().sqrt();
+    direction.map(|c| c / length)
+}
+
+fn vector([x, y, z]: [f32; 3]) -> Vec<(&'static str, Numbers)> {
+    vec![("direction.x", vec![x]), ("direction.y", vec![y]), ("direction.z", vec![z])]
+}
+
+fn truth(bands: usize, direction: [f32; 3]) -> Vec<f64> {
+    let mut values = vec![0.0; count(bands)];
+    Basis::new(bands).evaluate(normalised(direction.map(f64::from)), &mut values);
+    values
+}
+
+/// Worst |value − truth| over the largest |truth| of its band.
+fn worst_in_bands(values: &[f64], truth: &[f64]) -> f64 {
+    let bands = truth.len().isqrt();
+    let error = |l: usize| {
+        let band = l * l..(l + 1) * (l + 1);
+        let largest = truth[band.clone()].iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        let worst = band.map(|i| (values[i] - truth[i]).abs()).fold(0.0, f64::max);
+        worst / largest
+    };
+    (0..bands).map(error).fold(0.0, f64::max)
+}
+
+#[test]
+fn values_keep_five_digits_in_f32() {
+    for bands in [1, 2, 3, 4, 5, 6, 7, 9, 20, MAX_BANDS] {
+        let wgsl = Function::Evaluate.generate(bands).wgsl;
+        let even = Function::EvaluateEven.generate(bands).wgsl;
+        let mut worst = 0.0_f64;
+        for direction in directions() {
+            let values = run(&wgsl, &vector(direction));
+            let truth = truth(bands, direction);
+            let wide: Vec<_> = values.iter().map(|&v| f64::from(v)).collect();
+            worst = worst.max(worst_in_bands(&wide, &truth));
+            let half = run(&even, &vector(direction));
+            for l in 0..bands {
+                for m in 0..=l {
+                    let same = values[index(l, m as isize)] == half[even_index(l, m)];
+                    assert!(same, "the halves differ at {l}, {m}");
+                }
+            }
+        }
+        println!("{bands} bands: {worst:.1e}");
+        assert!(worst <= 1e-5, "{bands} bands: {worst:e}");
+    }
+}
+
+/// ∂x, ∂y, ∂z of each coefficient at the unit vector along the given one.
+fn gradient_truth(bands: usize, direction: [f32; 3]) -> Vec<[f64; 3]> {
+    let mut values = vec![0.0; count(bands)];
+    let mut axes = [0; 3].map(|_| values.clone());
+    let slices = axes.each_mut().map(|axis| &mut axis[..]);
+    let unit = normalised(direction.map(f64::from));
+    Basis::new(bands).evaluate_with_gradient(unit, &mut values, slices);
+    (0..count(bands)).map(|i| [axes[0][i], axes[1][i], axes[2][i]]).collect()
+}
+
+#[test]
+fn gradients_keep_five_digits_in_f32() {
+    for bands in [1, 2, 3, 4, 5, 12, 20] {
+        let wgsl = Function::EvaluateWithGradient.generate(bands).wgsl;
+        for direction in directions() {
+            let result = run(&wgsl, &vector(direction));
+            let truth = gradient_truth(bands, direction);
+            for l in 0..bands {
+                let band = l * l..(l + 1) * (l + 1);
+                let largest =
+                    truth[band.clone()].iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
+                for (i, axis) in band.flat_map(|i| (0..3).map(move |axis| (i, axis))) {
+                    let error = (f64::from(result[4 * i + axis]) - truth[i][axis]).abs();
+                    assert!(error <= 1e-5 * largest, "{l} of {bands} at {direction:?}: {error:e}");
+                }
+            }
+        }
+    }
+}
+
+/// c_l and d ∂c_l/∂d in f64.
+fn cap_truth(bands: usize, sine: f64) -> Vec<[f64; 2]> {
+    let sine = sine.min(1.0);
+    let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
+    let (mut scales, mut rates) = (vec![0.0; bands], vec![0.0; bands]);
+    cap_stable(Cap { sine, cosine }, &mut scales);
+    let rate = if sine < 1.0 { sine * sine / cosine } else { 0.0 };
+    cap_rate_stable(Cap { sine, cosine }, rate, &mut rates);
+    scales.into_iter().zip(rates).map(|(scale, rate)| [scale, rate]).collect()
+}
+
+#[test]
+fn cap_scales_keep_six_digits_in_f32() {
+    let both = Function::CapScalesWithRate.generate(MAX_BANDS).wgsl;
+    let single = Function::CapScales.generate(MAX_BANDS).wgsl;
+    let sines = (0..=240)
+        .map(|i| 10_f32.powf(-0.025 * i as f32))
+        .chain((1..=40).map(|i| 1.0 - i as f32 / 40.0 * 0.9))
+        .chain([1.0 - f32::EPSILON, 1.5, f32::INFINITY]);
+    let mut worst = [0.0_f64; 2];
+    for sine in sines {
+        let result = run(&both, &[("sine", vec![sine])]);
+        let truth = cap_truth(MAX_BANDS, f64::from(sine));
+        let same = run(&single, &[("sine", vec![sine])]);
+        for part in 0..2 {
+            let largest = truth.iter().map(|pair| pair[part].abs()).fold(0.0, f64::max);
+            for (l, pair) in truth.iter().enumerate() {
+                let error = (f64::from(result[2 * l + part]) - pair[part]).abs();
+                assert!(error <= 1e-6 * largest, "{part} of band {l} at {sine}: {error:e}");
+                worst[part] = worst[part].max(error / largest.max(f64::MIN_POSITIVE));
+                assert!(same[l] == result[2 * l]);
+            }
+        }
+    }
+    println!("scales {:.1e}, rates {:.1e}", worst[0], worst[1]);
+}
+
+fn half(bands: usize, values: &[f32]) -> Numbers {
+    (0..bands).flat_map(|l| (0..=l).map(move |m| values[index(l, m as isize)])).collect()
+}
+
+fn coefficients(bands: usize) -> impl Strategy<Value = Numbers> {
+    prop::collection::vec(-1.0_f32..1.0, count(bands))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(8))]
+
+    #[test]
+    fn dot_products_are_those_of_the_definition(
+        (bands, a, b, scales) in (1..=10_usize).prop_flat_map(|bands| (
+            Just(bands), coefficients(bands), coefficients(bands),
+            prop::collection::vec(-1.0_f32..1.0, bands),
+        )),
+        turn in 0.0_f32..7.0,
+    ) {
+        let direction = [0.6 * turn.cos(), 0.6 * turn.sin(), -0.8];
+        let call = |function: Function, arguments: &[(&str, Numbers)]| {
+            f64::from(run(&function.generate(bands).wgsl, arguments)[0])
+        };
+        let scale = 1e-6 * count(bands) as f64;
+        let whole = a.iter().zip(&b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>();
+        let dot = call(Function::Dot, &[("a", a.clone()), ("b", b.clone())]);
+        prop_assert!((dot - whole).abs() <= scale);
+        let halves = [("a", half(bands, &a)), ("b", half(bands, &b))];
+        let (one, two) = (half(bands, &a), half(bands, &b));
+        let even = one.iter().zip(&two).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>();
+        prop_assert!((call(Function::DotEven, &halves) - even).abs() <= scale);
+
+        let y = truth(bands, direction);
+        let weight = |l: usize, m: isize| {
+            f64::from(scales[l]) * y[index(l, m)] * f64::from(b[index(l, m)])
+        };
+        let orders = |l: usize| -(l as isize)..=l as isize;
+        let full: f64 = (0..bands).flat_map(|l| orders(l).map(move |m| (l, m)))
+            .map(|(l, m)| weight(l, m)).sum();
+        let even: f64 = (0..bands).flat_map(|l| (0..=l as isize).map(move |m| (l, m)))
+            .map(|(l, m)| weight(l, m)).sum();
+        let mut arguments = vector(direction);
+        arguments.extend([("scales", scales.clone()), ("b", b.clone())]);
+        prop_assert!((call(Function::ZonalDot, &arguments) - full).abs() <= scale);
+        let mut arguments = vector(direction);
+        arguments.extend([("scales", scales.clone()), ("b", two.clone())]);
+        prop_assert!((call(Function::ZonalDotEven, &arguments) - even).abs() <= scale);
+    }
+
+    /// ∫ f max(0, z) Y_lm over the upper half, by a quadrature that is exact for it.
+    #[test]
+    fn the_clamped_cosine_multiplies(
+        (bands, a) in (1..=8_usize).prop_flat_map(|bands| (Just(bands), coefficients(bands))),
+    ) {
+        let result = run(&Function::ClampedCosine.generate(bands).wgsl, &[("a", a.clone())]);
+        let even = run(&Function::ClampedCosineEven.generate(bands).wgsl, &[("a", half(bands, &a))]);
+        prop_assert_eq!(half(bands, &result), even);
+        let basis = Basis::new(bands);
+        let mut truth = vec![0.0; count(bands)];
+        let mut y = vec![0.0; count(bands)];
+        let turns = 4 * bands;
+        for (node, weight) in gauss_legendre(2 * bands) {
+            let z = 0.5 * (1.0 + node);
+            let r = (1.0 - z * z).sqrt();
+            for turn in 0..turns {
+                let phi = TAU * turn as f64 / turns as f64;
+                basis.evaluate([r * phi.cos(), r * phi.sin(), z], &mut y);
+                let f: f64 = y.iter().zip(&a).map(|(y, a)| y * f64::from(*a)).sum();
+                for (sum, y) in truth.iter_mut().zip(&y) {
+                    *sum += f * z * y * 0.5 * weight * 2.0 * PI / turns as f64;
+                }
+            }
+        }
+        for (value, truth) in result.iter().zip(&truth) {
+            // Sums of at most 8 products below 1.
+            prop_assert!((f64::from(*value) - truth).abs() <= 1e-6, "{value} {truth}");
+        }
+    }
+}
+
+#[test]
+fn modules_are_the_same_text_for_the_same_set() {
+    let one = module(3, &[Function::ZonalDot, Function::Evaluate]);
+    let two = module(3, &[Function::Evaluate, Function::ZonalDot, Function::Evaluate]);
+    assert_eq!(one, two);
+    assert_eq!(one.matches("fn ").count(), 2);
+}
+
+#[test]
+fn operations_of_few_bands() {
+    let cost = |function: Function, bands| {
+        let operations = function.generate(bands).operations;
+        (operations.additions, operations.multiplications)
+    };
+    // Known by hand: 3x, y, z scaled.
+    assert_eq!(cost(Function::Evaluate, 2), (0, 3));
+    assert_eq!(cost(Function::Dot, 5), (24, 25));
+    assert_eq!(cost(Function::DotEven, 5), (14, 15));
+}
