@@ -71,7 +71,7 @@ fn compare_group(name: &str, before: &Group<'_>, now: &Group<'_>, moved: &mut Ve
         };
         match (&old.outcome, &new.outcome) {
             (Outcome::Done(a), Outcome::Done(b)) => {
-                pairs.push((*old, a.as_ref(), *new, b.as_ref()))
+                pairs.push((*old, a.as_ref(), *new, b.as_ref()));
             }
             (a, b) if a == b => {}
             (a, b) => {
