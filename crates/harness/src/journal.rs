@@ -16,6 +16,8 @@ pub(crate) struct Journal {
     cells: BTreeMap<String, Cell>,
     /// Keys in the order of the file.
     order: Vec<String>,
+    /// Of the file: more than keys where cells ran again.
+    lines: usize,
     /// Held until this process ends, however it ends.
     _lock: File,
 }
@@ -35,6 +37,7 @@ impl Journal {
             eprintln!("{problem}; its cell runs again");
         }
         let (mut cells, mut order) = (BTreeMap::new(), Vec::new());
+        let count = lines.len();
         let kept: String = lines.iter().map(line).collect();
         for cell in lines {
             // The later line of a key that failed and ran again counts.
@@ -47,7 +50,7 @@ impl Journal {
             output::write(&path, kept.as_bytes())?;
         }
         let file = open(&path).map_err(at)?;
-        Ok(Self { path, file, cells, order, _lock: lock })
+        Ok(Self { path, file, cells, order, lines: count, _lock: lock })
     }
 
     /// The finished cell of this key.
@@ -69,14 +72,15 @@ impl Journal {
             .write_all(line(cell).as_bytes())
             .and_then(|()| self.file.sync_data())
             .map_err(|error| Failure::input(format!("cells.jsonl: {error}")))?;
+        self.lines += 1;
         if self.cells.insert(cell.key.clone(), cell.clone()).is_none() {
             self.order.push(cell.key.clone());
         }
         Ok(())
     }
 
-    /// Drops the cells that another build made of the same inputs on the same machine as `current`.
-    /// Gives their keys.
+    /// Drops the cells that another build made of the same inputs on the same machine as `current`,
+    /// and the earlier lines of cells that ran again. Gives the keys of the former.
     ///
     /// # Errors
     /// One line where the file cannot be written.
@@ -91,9 +95,10 @@ impl Journal {
         let (retired, kept): (Vec<String>, Vec<String>) =
             self.order.drain(..).partition(|key| superseded(&self.cells[key]));
         self.order = kept;
-        if !retired.is_empty() {
+        if !retired.is_empty() || self.lines > self.order.len() {
             let lines = self.order.iter().map(|key| line(&self.cells[key])).collect::<String>();
             output::write(&self.path, lines.as_bytes())?;
+            self.lines = self.order.len();
             // The old handle is that of the file that was replaced.
             self.file = open(&self.path).map_err(Failure::input)?;
         }

@@ -130,16 +130,28 @@ fn point(medians: &Medians, reference: &str) -> Option<Point> {
     })
 }
 
-/// The time at which a curve first falls to an error, between its points on a log-log scale; the
-/// first point's where the curve starts below it, `None` where it never gets there.
-pub(crate) fn seconds_to_reach(points: &[Point], error: f64) -> Option<f64> {
-    let reached = points.iter().position(|point| point.rmse[0] <= error)?;
+/// When a curve reaches an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Reached {
+    /// After so many seconds, between its points on a log-log scale.
+    At(f64),
+    /// Before its first point, which took so many seconds.
+    Before(f64),
+    /// Not within its points.
+    Never,
+}
+
+/// When a curve first falls to an error.
+pub(crate) fn time_to_reach(points: &[Point], error: f64) -> Reached {
+    let Some(reached) = points.iter().position(|point| point.rmse[0] <= error) else {
+        return Reached::Never;
+    };
     let end = points[reached];
     let Some(start) = reached.checked_sub(1).map(|before| points[before]) else {
-        return Some(end.seconds[0]);
+        return Reached::Before(end.seconds[0]);
     };
     let share = (start.rmse[0] / error).ln() / (start.rmse[0] / end.rmse[0]).ln();
-    Some(start.seconds[0] * (end.seconds[0] / start.seconds[0]).powf(share))
+    Reached::At(start.seconds[0] * (end.seconds[0] / start.seconds[0]).powf(share))
 }
 
 #[cfg(test)]
@@ -151,10 +163,10 @@ mod tests {
         // RMSE = t^(−1/2).
         let at = |t: f64| Point { amount: 1, seconds: [t; 3], rmse: [t.powf(-0.5); 3] };
         let points = [at(1.0), at(4.0), at(100.0)];
-        let seconds = seconds_to_reach(&points, 0.2).expect("reached");
+        let Reached::At(seconds) = time_to_reach(&points, 0.2) else { panic!("reached") };
         assert!((seconds - 25.0).abs() < 1e-9, "{seconds}");
-        assert_eq!(seconds_to_reach(&points, 2.0), Some(1.0));
-        assert_eq!(seconds_to_reach(&points, 0.05), None);
-        assert_eq!(seconds_to_reach(&[], 0.05), None);
+        assert_eq!(time_to_reach(&points, 2.0), Reached::Before(1.0));
+        assert_eq!(time_to_reach(&points, 0.05), Reached::Never);
+        assert_eq!(time_to_reach(&[], 0.05), Reached::Never);
     }
 }

@@ -89,13 +89,22 @@ fn lights_cameras_and_materials() {
         ("lights[0].spot: Missing data", |r| light(r, json!({ "type": "spot" }))),
         ("lights[0].type", |r| light(r, json!({ "type": "laser" }))),
         ("light: its colour times", |r| light(r, json!({ "type": "point", "intensity": -1 }))),
-        ("light: its colour times", |r| light(r, json!({ "type": "point", "intensity": 1e39 }))),
+        ("light: its colour times", |r| {
+            light(r, json!({ "type": "point", "color": [10, 10, 10], "intensity": 3e38 }));
+        }),
+        // Beyond what a number of the file can be.
+        ("JSON: number out of range at line 1 column", |r| {
+            light(r, json!({ "type": "point", "intensity": 1e39 }));
+        }),
         ("light.spot: the angles", |r| {
             let spot = json!({ "innerConeAngle": 1.0, "outerConeAngle": 0.5 });
             light(r, json!({ "type": "spot", "spot": spot }));
         }),
         ("nodes[0]: transform", |r| {
-            r["nodes"][0]["translation"] = json!([1e39, 0, 0]);
+            // Each finite, not so their sum.
+            let far = json!([3e38, 0, 0]);
+            r["nodes"] = json!([{ "translation": far }, { "translation": far, "children": [0] }]);
+            r["scenes"] = json!([{ "nodes": [1] }]);
             light(r, json!({ "type": "point" }));
         }),
         ("nodes[0]: transform", |r| {
@@ -111,8 +120,8 @@ fn lights_cameras_and_materials() {
         }),
         ("materials[0]: emissiveFactor", |r| {
             let extensions =
-                json!({ "KHR_materials_emissive_strength": { "emissiveStrength": 1e39 } });
-            material(r, json!({ "emissiveFactor": [1, 1, 1], "extensions": extensions }));
+                json!({ "KHR_materials_emissive_strength": { "emissiveStrength": 3e38 } });
+            material(r, json!({ "emissiveFactor": [10, 10, 10], "extensions": extensions }));
         }),
         ("materials[0]: ior", |r| {
             material(r, json!({ "extensions": { "KHR_materials_ior": { "ior": 0.5 } } }));
@@ -136,11 +145,13 @@ fn non_finite_vertices_and_transforms() {
         assert!(noted(&scene, "triangles with non-finite vertices left out: 1"));
     }
     let mut root = triangle();
-    root["nodes"][0]["scale"] = json!([1e39, 1, 1]);
+    root["nodes"][0]["scale"] = json!([3e38, 1, 1]);
+    root["nodes"][0]["translation"] = json!([3e38, 0, 0]);
     let scene = load_json(&root).expect("loads without the triangle");
     assert!(noted(&scene, "triangles with non-finite vertices left out: 1"), "{:?}", scene.notes);
     // Finite vertices whose cross product is not: no normal could be computed.
     root["nodes"][0]["scale"] = json!([1e30, 1e30, 1]);
+    root["nodes"][0]["translation"] = json!([0, 0, 0]);
     let scene = load_json(&root).expect("loads without the triangle");
     assert!(noted(&scene, "triangles without area left out: 1"), "{:?}", scene.notes);
 }

@@ -10,7 +10,7 @@ use crate::experiment::Experiment;
 use crate::numbers::{milliseconds, short};
 use crate::plan::Budget;
 use crate::provenance::Provenance;
-use crate::series;
+use crate::series::{self, Reached};
 use crate::statistics::Quartiles;
 use crate::time_budget::TOLERANCE;
 
@@ -188,8 +188,11 @@ fn time_to_error(experiment: &Experiment, scene: &SceneAnswer) -> Option<Table> 
         for curve in series::of_experiment(experiment, std::slice::from_ref(scene)) {
             let points = curve.points(scene, &reference);
             for &error in &experiment.errors {
-                let time = series::seconds_to_reach(&points, error);
-                let time = time.map_or_else(|| "not reached".to_owned(), milliseconds);
+                let time = match series::time_to_reach(&points, error) {
+                    Reached::At(seconds) => milliseconds(seconds),
+                    Reached::Before(seconds) => format!("≤ {}", milliseconds(seconds)),
+                    Reached::Never => "not reached".to_owned(),
+                };
                 lines.push(vec![curve.name.clone(), reference.clone(), short(error), time]);
             }
         }
