@@ -13,7 +13,7 @@ use crate::statistics::median;
 /// A median time this far from its budget, relatively, is corrected once more and marked in tables.
 pub(crate) const TOLERANCE: f64 = 0.05;
 /// Corrections of one scene at most: the machine's own noise may exceed [`TOLERANCE`].
-const CORRECTIONS: usize = 3;
+const CORRECTIONS: usize = 5;
 /// Runs that a time is the median of, once it is near its target.
 const RUNS: usize = 3;
 

@@ -20,6 +20,7 @@ use crate::error::Failure;
 use crate::experiment::Experiment;
 use crate::provenance::Provenance;
 use crate::session::SceneCells;
+use crate::table::Table;
 use crate::{output, table};
 use pictures::Pictures;
 use template::{escaped, fill, in_script};
@@ -84,6 +85,7 @@ impl Report<'_> {
                 ("question", &escaped(&self.experiment.question)),
                 ("facts", &self.facts()),
                 ("metrics", &metrics()),
+                ("tables", &self.tables()),
                 ("style", &STYLE.concat()),
                 ("curves", &curves),
                 ("data", &in_script(&data)),
@@ -92,6 +94,17 @@ impl Report<'_> {
                 ("scripts", &SCRIPTS.concat()),
             ],
         ))
+    }
+
+    /// Times to errors and published values.
+    fn tables(&self) -> String {
+        let times = self.answers.iter().filter_map(|scene| {
+            let table = table::time_to_error(self.experiment, scene)?;
+            Some((format!("{}: {}", scene.scene, table.caption), table))
+        });
+        let published = table::published(self.experiment, self.answers)
+            .map(|table| (table.caption.clone(), table));
+        times.chain(published).map(|(title, table)| plain_table(&title, &table)).collect()
     }
 
     /// What was run, and where: terms and descriptions.
@@ -144,6 +157,25 @@ pub(crate) fn command(file: &Path, experiment: &Experiment, out: Option<&Path>) 
     words.join(" ")
 }
 
+/// A table that neither sorts nor changes.
+fn plain_table(title: &str, table: &Table) -> String {
+    let class = |column: usize| if table.heading[column].1 { "" } else { " class=\"text\"" };
+    let row = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
+        let cell = |(column, text): (usize, &str)| {
+            format!("<{tag}{}>{}</{tag}>", class(column), escaped(text))
+        };
+        format!("<tr>{}</tr>\n", cells.enumerate().map(cell).collect::<String>())
+    };
+    let title = escaped(title);
+    let head = row("th", &mut table.heading.iter().map(|(title, _)| *title));
+    let body: String =
+        table.lines.iter().map(|line| row("td", &mut line.iter().map(String::as_str))).collect();
+    format!(
+        "<h3>{title}</h3>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{title}\">\
+         <table class=\"plain\">\n<thead>{head}</thead>\n<tbody>\n{body}</tbody>\n</table></div>\n"
+    )
+}
+
 fn definition(term: &str, html: &str) -> String {
     format!("<div><dt>{term}</dt><dd>{html}</dd></div>\n")
 }
@@ -179,6 +211,18 @@ fn picture_scripts(scenes: &[Pictures<'_>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cells_of_plain_tables_are_text() {
+        let table = Table {
+            caption: String::new(),
+            heading: vec![("method", false), ("ms", true)],
+            lines: vec![vec!["<b>".into(), "1.5".into()]],
+        };
+        let html = plain_table("A & B", &table);
+        assert!(html.contains("<h3>A &amp; B</h3>"), "{html}");
+        assert!(html.contains("<td class=\"text\">&lt;b&gt;</td><td>1.5</td>"), "{html}");
+    }
 
     #[test]
     fn the_ramp_runs_from_black_to_light() {

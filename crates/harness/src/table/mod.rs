@@ -178,8 +178,9 @@ fn quartiles(seconds: Quartiles) -> String {
     format!("{}–{}", milliseconds(seconds.lower), milliseconds(seconds.upper))
 }
 
-/// Milliseconds that each curve takes to each error, against each reference.
-fn time_to_error(experiment: &Experiment, scene: &SceneAnswer) -> Option<Table> {
+/// Milliseconds that each curve takes to each error, against each reference; `None` where the
+/// experiment names no error.
+pub(crate) fn time_to_error(experiment: &Experiment, scene: &SceneAnswer) -> Option<Table> {
     if experiment.errors.is_empty() {
         return None;
     }
@@ -204,7 +205,7 @@ fn time_to_error(experiment: &Experiment, scene: &SceneAnswer) -> Option<Table> 
     })
 }
 
-/// Ours beside the numbers of papers.
+/// Ours beside the numbers of papers; `None` where the experiment names none.
 pub(crate) fn published(experiment: &Experiment, scenes: &[SceneAnswer]) -> Option<Table> {
     if experiment.published.is_empty() {
         return None;
