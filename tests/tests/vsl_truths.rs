@@ -36,7 +36,7 @@ fn bias(lights: &str, samples: &str, sampling: &str, radius: &str) -> f32 {
 
 /// Spheres darken concave surfaces: of the directions to a light at distance d, a share is below one
 /// of the two horizons where d² < rR, which holds for a part ∝ r/R of the lights. So the bias is of
-/// first order in r, halves with four times the lights, and 2 % needs radii of R/25.
+/// first order in r, halves with four times the lights, and 2 % needs radii of R/20.
 #[test]
 fn integrating_sphere() {
     let [coarse, fine] = ["2048", "32768"].map(|lights| bias(lights, "4", "1", "2"));

@@ -61,8 +61,15 @@ fn many_samples_approach_the_quadrature() {
                 gather(&GPU, &[surface; 16], CAMERA, &[sphere], &settings, 0).expect("a gather");
             let mean = pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / 16.0;
             println!("{name} {sampling:?}: {:+.1e}", mean / truth - 1.0);
-            // 262 144 low-discrepancy samples; the rim of the cone is a jump for those of the lobes.
-            assert!((mean / truth - 1.0).abs() < 1e-3, "{name} {sampling:?}: {mean}, {truth}");
+            // 16 lattices of 16 384 samples. Over the cone the integrand is smooth. For samples of the
+            // lobes the rim is a jump, and few of them meet the cone across the horizon: independent
+            // ones would be off by 7e-3 there (one standard deviation, from the next test's).
+            let bound = match sampling {
+                Sampling::Cone => 5e-5,
+                Sampling::Both => 5e-4,
+                Sampling::Brdf => 3e-3,
+            };
+            assert!((mean / truth - 1.0).abs() < bound, "{name} {sampling:?}: {mean}, {truth}");
         }
     }
 }
@@ -88,23 +95,30 @@ fn nine_samples_are_right_on_average() {
     }
 }
 
-/// Both strategies together are never much worse than the better one, and far better than lobes
-/// alone where the cone is narrow.
+/// Both strategies together save what either alone is bad at: lobes that rarely meet a narrow cone,
+/// cones that rarely meet a narrow lobe. (The lattice makes cone samples of smooth integrands nearly
+/// exact, better than both.)
 #[test]
-fn the_balance_heuristic_tames_narrow_cones() {
-    let deviation = |sphere: &SphericalLight, sampling| {
+fn the_balance_heuristic_saves_either_strategy() {
+    let deviation = |brdf: Brdf, sphere: &SphericalLight, sampling| {
         let settings = Settings { sampling, ..SETTINGS };
-        let surfaces = [surface(Vec3::ZERO, Vec3::Y, glossy(0.5)); 4096];
+        let surfaces = [surface(Vec3::ZERO, Vec3::Y, brdf); 4096];
         let pixels = gather(&GPU, &surfaces, CAMERA, &[*sphere], &settings, 0).expect("a gather");
         let mean = pixels.iter().map(|pixel| pixel[0]).sum::<f32>() / 4096.0;
         let square = pixels.iter().map(|pixel| (pixel[0] / mean - 1.0).powi(2)).sum::<f32>();
         (square / 4096.0).sqrt()
     };
-    let emitter = Brdf::lambert(Vec3::ONE);
-    let narrow = light(Vec3::new(-0.9, 1.5, 0.3), Vec3::NEG_Y, emitter, 0.05);
-    let [brdf, cone, both] = SAMPLINGS.map(|sampling| deviation(&narrow, sampling));
-    println!("relative deviations of nine samples: lobes {brdf}, cone {cone}, both {both}");
-    assert!(both < 0.1 * brdf && both < 2.0 * cone);
+    // Towards the camera's mirror image.
+    let (place, emitter) = (Vec3::new(-0.9, 1.5, 0.3), Brdf::lambert(Vec3::ONE));
+    let narrow = light(place, Vec3::NEG_Y, emitter, 0.05);
+    let [lobes, cone, both] = SAMPLINGS.map(|sampling| deviation(glossy(0.5), &narrow, sampling));
+    println!("narrow cone: lobes {lobes}, cone {cone}, both {both}");
+    assert!(both < 0.01 * lobes);
+    let metal = Brdf { diffuse: Vec3::ZERO, f0: Vec3::splat(0.9), ..glossy(0.15) };
+    let wide = light(place, Vec3::NEG_Y, emitter, 1.0);
+    let [lobes, cone, both] = SAMPLINGS.map(|sampling| deviation(metal, &wide, sampling));
+    println!("narrow lobe: lobes {lobes}, cone {cone}, both {both}");
+    assert!(both < 0.1 * cone);
 }
 
 /// Radius → 0: the picture of point lights, and at 0 exactly that, whatever is sampled.
@@ -154,7 +168,9 @@ fn the_oracle_integrates() {
             let settings = Settings { samples: 65_536, sampling, ..SETTINGS };
             let eye = CAMERA.as_dvec3();
             let value = oracle::radiance(0, &surface, eye, &[sphere], &settings, 0).x;
-            assert!((value / truth - 1.0).abs() < 2e-3, "{name} {sampling:?}: {value}, {truth}");
+            // One lattice of 65 536; see `many_samples_approach_the_quadrature`.
+            let bound = if sampling == Sampling::Cone { 5e-5 } else { 5e-3 };
+            assert!((value / truth - 1.0).abs() < bound, "{name} {sampling:?}: {value}, {truth}");
         }
     }
 }
