@@ -5,7 +5,7 @@ use manylights_scene::{Brdf, Scene};
 
 use crate::frame::SurfaceRecord;
 use crate::raster::rasterise;
-use crate::rsm::maps;
+use crate::rsm::{Map, maps};
 use crate::{Error, GpuFrame, PassTime};
 
 /// A small lit patch of surface that stands for one cell of a reflective shadow map.
@@ -27,6 +27,15 @@ pub struct VirtualLight {
     pub brdf: Brdf,
 }
 
+/// The virtual lights of one reflective shadow map, with their places on it.
+#[derive(Clone, Debug)]
+pub struct LitMap {
+    /// Its rays and its primary light.
+    pub map: Map,
+    /// A light for each cell, row-major; none where the cell has no flux or no surface.
+    pub lights: Vec<Option<VirtualLight>>,
+}
+
 /// Places virtual lights on what the scene's primary lights see: at least `count` cells in all, split
 /// evenly between the lights. Cells without flux or surface carry no light and are left out.
 ///
@@ -40,21 +49,36 @@ pub fn distribute(
     count: u64,
     seed: u64,
 ) -> Result<(Vec<VirtualLight>, Vec<PassTime>), Error> {
+    let (maps, times) = lit_maps(frame, scene, count, seed)?;
+    Ok((maps.into_iter().flat_map(|map| map.lights).flatten().collect(), times))
+}
+
+/// The lights of [`distribute`], in its order, on their maps: for methods that ask a light for its
+/// neighbours.
+///
+/// # Errors
+/// Where the maps exceed what the adapter holds.
+pub fn lit_maps(
+    frame: &GpuFrame,
+    scene: &Scene,
+    count: u64,
+    seed: u64,
+) -> Result<(Vec<LitMap>, Vec<PassTime>), Error> {
     let share = count.div_ceil(scene.lights.len().max(1) as u64);
-    let mut lights = Vec::new();
+    let mut lit = Vec::new();
     let mut times = Vec::new();
     for map in scene.lights.iter().flat_map(|light| maps(scene, light, share, seed)) {
         let (surfaces, passes) = rasterise(frame.gpu(), &frame.scene, &map.projection)?;
         times.extend(passes);
         let surfaces: Vec<SurfaceRecord> = frame.gpu().read(&surfaces)?;
         let columns = map.projection.resolution[0];
-        for (index, surface) in surfaces.iter().enumerate() {
-            let index = index as u32;
+        let cells = surfaces.iter().zip(0_u32..).map(|(surface, index)| {
             let cell = map.cell(index % columns, index / columns);
-            lights.extend(virtual_light(scene, surface, cell.direction, cell.flux));
-        }
+            virtual_light(scene, surface, cell.direction, cell.flux)
+        });
+        lit.push(LitMap { map, lights: cells.collect() });
     }
-    Ok((lights, times))
+    Ok((lit, times))
 }
 
 fn virtual_light(

@@ -1,0 +1,152 @@
+//! Virtual spherical lights (Hašan, Křivánek, Walter, Bala 2009; thesis 5.1.4 and 5.2.6).
+//!
+//! A virtual point light is inflated to a sphere of radius r that covers its neighbourhood. With d the
+//! distance to its centre, Ω the cone of half-angle a = asin(r/d) about it (a hemisphere inside the
+//! sphere), one indirect bounce is
+//!
+//! L(x, v) = Σ_j Φ_j/(π r_j²) ∫_Ω f_x(v, ω) ⟨n_x·ω⟩ f_j(ω_p, −ω) ⟨n_j·−ω⟩ dω
+//!
+//! without visibility between light and shaded point. Nothing depends on the place inside the sphere,
+//! only on the direction. With |Ω|/(πr²) = 2/(d² + d√(d² − r²)), which goes over into 2/r² inside the
+//! sphere and into the 1/d² of point lights for r → 0, samples of density p are summed as
+//!
+//! L = Φ |Ω|/(πr²) · 1/n Σ_i g(ω_i)/(p(ω_i) |Ω|),   g the integrand,
+//!
+//! p|Ω| = 1 for uniform samples of the cone, p_x|Ω| for samples of the shaded point's lobes (the
+//! thesis' choice, with 9 and 25 samples; those outside Ω count nothing), and 1 + p_x|Ω| for n samples
+//! of each (the balance heuristic). Narrow cones are met by few samples of the lobes: they alone are
+//! noisy where lights are many.
+//!
+//! Radii: see [`RadiusRule`](manylights_gpu::RadiusRule); all are scaled by the user's factor.
+//!
+//! Deviations from the papers:
+//! - The authors' shader also samples the light's own lobe, and takes more samples for wider cones;
+//!   here the count is the same for all.
+//! - Their shader drops a light whose centre is below a horizon; here the clamped cosines of each
+//!   direction decide, so nothing jumps where a sphere crosses a horizon. It also lessens πr² in
+//!   corners, which the thesis does not.
+//! - As in `manylights-vpl`: exact solid angles of cells, the emitting cosine of the geometric normal.
+//! - Lights of radius 0 are points under every sampling.
+//!
+//! Operations, the limit to measure against, counted in the shaders: for one light and pixel some 70
+//! to set up (with a GGX light 115), unless the whole cone is below a horizon; for one sample of the
+//! cone 40 on Lambertian surfaces, 90 with a GGX receiver, 155 with a GGX light too; a sample of the
+//! lobes takes 30 (Lambertian) to 60 before it is known to meet the cone, and then as much as one of
+//! the cone. What does not depend on the pixel (intensity, the light's frame and its half of the Smith
+//! term, its key) is in the light's record; what does not depend on the light is kept by the lane.
+//!
+//! Bias: spheres darken concave surfaces, since a part of a wide cone is below one of the horizons; on
+//! the integrating sphere by 0.4 r/R (`tests/tests/vsl_truths.rs`).
+
+mod gather;
+mod light_record;
+mod noise;
+pub mod oracle;
+mod params;
+mod run;
+
+use glam::Vec3;
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
+use manylights_method::{
+    Error, Frame, Method, ParameterInfo, Parameters, Processor, Run, Transport, Visibility,
+};
+
+use gather::{Batches, Gather};
+use run::VslRun;
+
+pub use gather::linked_shader;
+pub use light_record::SphericalLight;
+pub use params::{Sampling, Settings};
+pub use run::spherical_lights;
+
+/// The method.
+pub struct Vsl;
+
+impl Method for Vsl {
+    fn id(&self) -> &'static str {
+        "vsl"
+    }
+
+    fn title(&self) -> &'static str {
+        "virtual spherical lights (Hašan et al. 2009)"
+    }
+
+    fn processor(&self) -> Processor {
+        Processor::Gpu
+    }
+
+    fn parameters(&self) -> &'static [ParameterInfo] {
+        params::PARAMETERS
+    }
+
+    fn cost_parameter(&self) -> &'static str {
+        "lights"
+    }
+
+    /// Half of the lights is half of the flux.
+    fn is_progressive(&self) -> bool {
+        false
+    }
+
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        let on_gpu = accepted(frame)?;
+        let settings = Settings::new(parameters);
+        let [width, height] = on_gpu.resolution();
+        let specular = frame.scene.has_specular();
+        let camera = frame.camera.position;
+        let gather = Gather::new(on_gpu.gpu(), width * height, camera, specular, &settings)?;
+        Ok(Box::new(VslRun {
+            scene: frame.scene,
+            frame: on_gpu,
+            settings,
+            seed: frame.seed,
+            gather,
+            placed: None,
+            times: Vec::new(),
+        }))
+    }
+}
+
+/// The frame on the adapter, where it is one that virtual spherical lights can render.
+fn accepted<'a>(frame: &Frame<'a>) -> Result<&'a GpuFrame, Error> {
+    let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
+    let Transport::Indirect { bounces: 1, visibility } = frame.transport else {
+        return declined("computes one indirect bounce: use --transport indirect-1");
+    };
+    if visibility == Visibility::Traced {
+        return declined("has no shadow test for its last segment: use --visibility ignored");
+    }
+    if frame.scene.emissive_triangles().next().is_some() {
+        return declined("needs point-like primary lights; this scene has emissive triangles");
+    }
+    if frame.scene.lights.is_empty() {
+        return declined("needs a point, spot or directional light; this scene has none");
+    }
+    frame.gpu.ok_or_else(|| Error::Failed("vsl runs on the adapter and was given none".into()))
+}
+
+/// Radiance of given surfaces under given lights, by the adapter's kernels: what a picture does, for
+/// hard cases that no scene brings about. A surface's index is its pixel, a light's its place in the
+/// picture's list: both choose the samples, with the seed.
+///
+/// # Errors
+/// Where the adapter refuses.
+pub fn gather(
+    gpu: &Gpu,
+    surfaces: &[SurfaceRecord],
+    camera: Vec3,
+    lights: &[SphericalLight],
+    settings: &Settings,
+    seed: u64,
+) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
+    let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
+        || lights.iter().any(|sphere| sphere.light.brdf.has_specular());
+    let gather = Gather::new(gpu, surfaces.len() as u32, camera, specular, settings)?;
+    let batches = Batches::new(gpu, lights, seed)?;
+    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.len())?;
+    gather.radiance()
+}

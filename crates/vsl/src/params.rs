@@ -1,0 +1,86 @@
+use manylights_gpu::RadiusRule;
+use manylights_method::{ParameterInfo, ParameterKind, Parameters};
+
+pub(crate) const PARAMETERS: &[ParameterInfo] = &[
+    ParameterInfo {
+        name: "lights",
+        help: "cells of the reflective shadow maps, rounded up to whole square maps",
+        kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
+    },
+    ParameterInfo {
+        name: "samples",
+        help: "directions for each light and pixel, of each sampling strategy",
+        kind: ParameterKind::Count { default: 9, min: 1, max: 1 << 16 },
+    },
+    ParameterInfo {
+        name: "sampling",
+        help: "0 = BRDF of the shaded point (the thesis), 1 = cone, 2 = both, balanced",
+        kind: ParameterKind::Count { default: 2, min: 0, max: 2 },
+    },
+    ParameterInfo {
+        name: "radius",
+        help: "0 = ten nearest lights, 1 = r₁ (thesis 5.9), 2 = r₂ (thesis 5.12)",
+        kind: ParameterKind::Count { default: 2, min: 0, max: 2 },
+    },
+    ParameterInfo {
+        name: "scale",
+        help: "factor on all radii; the thesis advises 1 to 2; 0 = point lights",
+        kind: ParameterKind::Real { default: 1.0, min: 0.0, max: 1e6 },
+    },
+];
+
+/// How directions in the cone of a light are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampling {
+    /// By the lobes of the shaded point; those that miss the cone count nothing.
+    Brdf,
+    /// Uniformly over the cone.
+    Cone,
+    /// Both, weighted by the balance heuristic.
+    Both,
+}
+
+/// The parameters by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Cells asked for.
+    pub lights: u64,
+    /// Directions for each pair of light and pixel, of each strategy.
+    pub samples: u32,
+    /// Strategies in use.
+    pub sampling: Sampling,
+    /// Where radii come from.
+    pub radius: RadiusRule,
+    /// Factor on all radii.
+    pub scale: f32,
+}
+
+impl Settings {
+    pub(crate) fn new(parameters: &Parameters) -> Self {
+        Self {
+            lights: parameters.count("lights"),
+            samples: parameters.count("samples") as u32,
+            sampling: match parameters.count("sampling") {
+                0 => Sampling::Brdf,
+                1 => Sampling::Cone,
+                _ => Sampling::Both,
+            },
+            radius: match parameters.count("radius") {
+                0 => RadiusRule::NearestNeighbours,
+                1 => RadiusRule::MapNeighbours,
+                _ => RadiusRule::FieldOfView,
+            },
+            scale: parameters.real("scale") as f32,
+        }
+    }
+}
+
+impl Sampling {
+    pub(crate) fn has_brdf(self) -> bool {
+        self != Self::Cone
+    }
+
+    pub(crate) fn has_cone(self) -> bool {
+        self != Self::Brdf
+    }
+}
