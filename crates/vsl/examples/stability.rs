@@ -55,7 +55,7 @@ fn materials() -> Vec<(&'static str, Brdf)> {
 
 /// Distances from `size` down to 1e-12 of it.
 fn shrinking(size: f32) -> impl Iterator<Item = f32> {
-    (0..=48).map(move |step| size * 10_f32.powf(-0.25 * step as f32))
+    (0..=24).map(move |step| size * 10_f32.powf(-0.5 * step as f32))
 }
 
 /// An oblique frame, so that no coordinate is exact.
