@@ -38,7 +38,7 @@ fn ten_nearest_lights() {
     let scattered = |index: u32, at: Vec3| {
         let shift = |factor: f32| (index as f32 * factor).sin();
         let moved = at + Vec3::new(shift(12.9), shift(78.2), 4.0 * shift(37.7));
-        (index % 7 != 0).then_some(moved)
+        (!index.is_multiple_of(7)).then_some(moved)
     };
     let maps = [lit(12, scattered), lit(9, scattered)];
     let (found, _) = radii(&scene(), &maps, RadiusRule::NearestNeighbours);
