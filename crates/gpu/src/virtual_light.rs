@@ -69,7 +69,8 @@ pub fn lit_maps(
     let mut times = Vec::new();
     for map in scene.lights.iter().flat_map(|light| maps(scene, light, share, seed)) {
         let (surfaces, passes) = rasterise(frame.gpu(), &frame.scene, &map.projection)?;
-        times.extend(passes);
+        // To a method they are one pass.
+        times.extend(passes.into_iter().map(|time| PassTime { pass: "distribute", ..time }));
         let surfaces: Vec<SurfaceRecord> = frame.gpu().read(&surfaces)?;
         let columns = map.projection.resolution[0];
         let cells = surfaces.iter().zip(0_u32..).map(|(surface, index)| {

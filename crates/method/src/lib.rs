@@ -3,6 +3,7 @@
 //! A method never sees the clock, the budget, the reference or the file system. It is progressive:
 //! [`Method::prepare`], then [`Run::step`] until it says that it is done, then [`Run::resolve`].
 
+mod many_lights;
 mod parameters;
 mod transport;
 
@@ -10,6 +11,7 @@ use manylights_gpu::GpuFrame;
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Camera, Scene};
 
+pub use many_lights::{ManyLightRun, PlacedLights, many_light_frame};
 pub use parameters::{ParameterInfo, ParameterKind, Parameters};
 pub use transport::{Transport, Visibility};
 

@@ -1,14 +1,8 @@
-//! The gather: batches of lights over all pixels, in compute passes.
-
-use std::ops::Range;
-use std::sync::Arc;
+//! The kernels and what they read.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{
-    Binding, Buffer, Dispatch, Error, Gpu, Kernel, PassTime, Resource, UniformBatches,
-    VirtualLight, link,
-};
+use manylights_gpu::{Error, Gpu, LightBatches, LightGather, VirtualLight, link};
 
 use crate::Settings;
 use crate::light_record::{GlossyLight, LambertLight};
@@ -48,122 +42,38 @@ struct View {
     padding: [u32; 2],
 }
 
-/// The pipelines for one scene and the sums so far.
-pub(crate) struct Gather {
-    gpu: Gpu,
-    view: Buffer,
-    radiance: Buffer,
+/// The lights in uniform memory.
+///
+/// # Errors
+/// Where the adapter refuses.
+pub(crate) fn batches(gpu: &Gpu, lights: &[VirtualLight]) -> Result<LightBatches, Error> {
+    let (glossy, lambert): (Vec<_>, Vec<_>) =
+        lights.iter().partition(|light| light.brdf.has_specular());
+    let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
+    let glossy: Vec<_> = glossy.into_iter().map(GlossyLight::new).collect();
+    LightBatches::new(gpu, (&lambert, LAMBERT_CAPACITY), (&glossy, GLOSSY_CAPACITY))
+}
+
+/// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
+///
+/// # Errors
+/// Where a shader does not link or the adapter refuses.
+pub(crate) fn gather(
+    gpu: &Gpu,
     pixels: u32,
-    from_lambert: Arc<Kernel>,
-    /// For lights on glossy surfaces; the Lambertian kernel again where the scene has none.
-    from_glossy: Arc<Kernel>,
-}
-
-/// Virtual lights in uniform memory, those on Lambertian surfaces first.
-pub(crate) struct Batches {
-    lambert: UniformBatches,
-    glossy: UniformBatches,
-}
-
-impl Batches {
-    pub(crate) fn new(gpu: &Gpu, lights: &[VirtualLight]) -> Result<Self, Error> {
-        let (glossy, lambert): (Vec<_>, Vec<_>) =
-            lights.iter().partition(|light| light.brdf.has_specular());
-        let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
-        let glossy: Vec<_> = glossy.into_iter().map(GlossyLight::new).collect();
-        Ok(Self {
-            lambert: UniformBatches::new(gpu, "lambert lights", &lambert, LAMBERT_CAPACITY)?,
-            glossy: UniformBatches::new(gpu, "glossy lights", &glossy, GLOSSY_CAPACITY)?,
-        })
-    }
-
-    /// Batches in all.
-    pub(crate) fn len(&self) -> usize {
-        self.lambert.counts().len() + self.glossy.counts().len()
-    }
-
-    /// Lights in a range of batches.
-    pub(crate) fn lights(&self, range: Range<usize>) -> u64 {
-        let counts = self.lambert.counts().iter().chain(self.glossy.counts());
-        counts.skip(range.start).take(range.len()).map(|&count| u64::from(count)).sum()
-    }
-}
-
-impl Gather {
-    /// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        pixels: u32,
-        camera: Vec3,
-        specular: bool,
-        settings: &Settings,
-    ) -> Result<Self, Error> {
-        let radius = settings.radius.unwrap_or(0.0);
-        let view = View {
-            camera,
-            pixels,
-            clamp: settings.clamp.unwrap_or(0.0),
-            radius2: radius * radius,
-            padding: [0; 2],
-        };
-        let kernel = |glossy_lights| {
-            let wgsl = linked_shader(specular, glossy_lights, settings)?;
-            let bindings =
-                [Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
-            gpu.kernel("gather", &wgsl, &bindings)
-        };
-        Ok(Self {
-            gpu: gpu.clone(),
-            view: gpu.uniform("view", &view)?,
-            radiance: gpu.zeroed("radiance", u64::from(pixels) * 16)?,
-            pixels,
-            from_lambert: kernel(false)?,
-            from_glossy: kernel(specular)?,
-        })
-    }
-
-    /// Adds a range of batches to all pixels and waits.
-    pub(crate) fn add(
-        &self,
-        surfaces: &Buffer,
-        batches: &Batches,
-        range: Range<usize>,
-    ) -> Result<Vec<PassTime>, Error> {
-        let lambert = batches.lambert.counts().len();
-        let chosen: Vec<_> = range
-            .filter(|&index| batches.lights(index..index + 1) > 0)
-            .map(|index| match index.checked_sub(lambert) {
-                None => (&self.from_lambert, Resource::Batch(&batches.lambert, index)),
-                Some(index) => (&self.from_glossy, Resource::Batch(&batches.glossy, index)),
-            })
-            .map(|(kernel, batch)| {
-                let [view, surfaces, radiance] =
-                    [&self.view, surfaces, &self.radiance].map(Resource::Buffer);
-                (kernel, [view, surfaces, batch, radiance])
-            })
-            .collect();
-        let dispatches: Vec<_> = chosen
-            .iter()
-            .map(|(kernel, resources)| Dispatch {
-                pass: "gather",
-                kernel,
-                resources,
-                workgroups: self.workgroups(),
-            })
-            .collect();
-        self.gpu.run(&dispatches)
-    }
-
-    fn workgroups(&self) -> [u32; 3] {
-        let groups = self.pixels.div_ceil(PIXELS_A_GROUP);
-        // Rows of at most 2¹⁵ groups: adapters guarantee 65 535 in each direction.
-        let columns = groups.min(1 << 15);
-        [columns, groups.div_ceil(columns), 1]
-    }
-
-    /// The sums so far, W·m⁻²·sr⁻¹.
-    pub(crate) fn radiance(&self) -> Result<Vec<[f32; 3]>, Error> {
-        let pixels: Vec<[f32; 4]> = self.gpu.read(&self.radiance)?;
-        Ok(pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect())
-    }
+    camera: Vec3,
+    specular: bool,
+    settings: &Settings,
+) -> Result<LightGather, Error> {
+    let radius = settings.radius.unwrap_or(0.0);
+    let view = View {
+        camera,
+        pixels,
+        clamp: settings.clamp.unwrap_or(0.0),
+        radius2: radius * radius,
+        padding: [0; 2],
+    };
+    let wgsl =
+        [linked_shader(specular, false, settings)?, linked_shader(specular, specular, settings)?];
+    LightGather::new(gpu, pixels, PIXELS_A_GROUP, &view, wgsl.each_ref().map(String::as_str))
 }

@@ -18,19 +18,21 @@ mod gather;
 mod light_record;
 pub mod oracle;
 mod params;
-mod run;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord, VirtualLight};
+use manylights_gpu::{Gpu, SurfaceRecord, VirtualLight, distribute};
 use manylights_method::{
-    Error, Frame, Method, ParameterInfo, Parameters, Processor, Run, Transport, Visibility,
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
 };
 
-use gather::{Batches, Gather};
-use run::VplRun;
+use gather::LAMBERT_CAPACITY;
 
 pub use gather::linked_shader;
 pub use params::Settings;
+
+/// Pairs of light and pixel in one submission: about a second on a slow processor, far below any
+/// watchdog on a fast one.
+const PAIRS_A_STEP: u64 = 1 << 28;
 
 /// The method.
 pub struct Vpl;
@@ -66,40 +68,20 @@ impl Method for Vpl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        let on_gpu = accepted(frame)?;
+        let on_gpu = many_light_frame(frame)?;
         let settings = Settings::new(parameters);
+        let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
-        let specular = frame.scene.has_specular();
-        let camera = frame.camera.position;
-        let gather = Gather::new(on_gpu.gpu(), width * height, camera, specular, &settings)?;
-        Ok(Box::new(VplRun {
-            scene: frame.scene,
-            frame: on_gpu,
-            settings,
-            seed: frame.seed,
-            gather,
-            placed: None,
-            times: Vec::new(),
-        }))
+        let pixels = width * height;
+        let gather = gather::gather(gpu, pixels, camera.position, scene.has_specular(), &settings)?;
+        let pairs_a_batch = u64::from(pixels) * LAMBERT_CAPACITY as u64;
+        let batches_a_step = (PAIRS_A_STEP / pairs_a_batch) as usize;
+        let place = move || {
+            let (lights, times) = distribute(on_gpu, scene, settings.lights, seed)?;
+            Ok((gather::batches(gpu, &lights)?, times))
+        };
+        Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
     }
-}
-
-/// The frame on the adapter, where it is one that virtual point lights can render.
-fn accepted<'a>(frame: &Frame<'a>) -> Result<&'a GpuFrame, Error> {
-    let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
-    let Transport::Indirect { bounces: 1, visibility } = frame.transport else {
-        return declined("computes one indirect bounce: use --transport indirect-1");
-    };
-    if visibility == Visibility::Traced {
-        return declined("has no shadow test for its last segment: use --visibility ignored");
-    }
-    if frame.scene.emissive_triangles().next().is_some() {
-        return declined("needs point-like primary lights; this scene has emissive triangles");
-    }
-    if frame.scene.lights.is_empty() {
-        return declined("needs a point, spot or directional light; this scene has none");
-    }
-    frame.gpu.ok_or_else(|| Error::Failed("vpl runs on the adapter and was given none".into()))
 }
 
 /// Radiance of given surfaces under given lights, by the adapter's kernels: what a picture does, for
@@ -116,8 +98,8 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
         || lights.iter().any(|light| light.brdf.has_specular());
-    let gather = Gather::new(gpu, surfaces.len() as u32, camera, specular, settings)?;
-    let batches = Batches::new(gpu, lights)?;
-    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.len())?;
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings)?;
+    let batches = gather::batches(gpu, lights)?;
+    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()
 }

@@ -43,21 +43,23 @@ mod light_record;
 mod noise;
 pub mod oracle;
 mod params;
-mod run;
+mod spherical_light;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
+use manylights_gpu::{Gpu, SurfaceRecord};
 use manylights_method::{
-    Error, Frame, Method, ParameterInfo, Parameters, Processor, Run, Transport, Visibility,
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
 };
 
-use gather::{Batches, Gather};
-use run::VslRun;
+use gather::CAPACITY;
 
 pub use gather::linked_shader;
-pub use light_record::SphericalLight;
 pub use params::{Sampling, Settings};
-pub use run::spherical_lights;
+pub use spherical_light::{SphericalLight, spherical_lights};
+
+/// Directions in one submission: about a second on a slow processor, far below any watchdog on a fast
+/// one.
+const DIRECTIONS_A_STEP: u64 = 1 << 26;
 
 /// The method.
 pub struct Vsl;
@@ -93,40 +95,20 @@ impl Method for Vsl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        let on_gpu = accepted(frame)?;
+        let on_gpu = many_light_frame(frame)?;
         let settings = Settings::new(parameters);
+        let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
-        let specular = frame.scene.has_specular();
-        let camera = frame.camera.position;
-        let gather = Gather::new(on_gpu.gpu(), width * height, camera, specular, &settings)?;
-        Ok(Box::new(VslRun {
-            scene: frame.scene,
-            frame: on_gpu,
-            settings,
-            seed: frame.seed,
-            gather,
-            placed: None,
-            times: Vec::new(),
-        }))
+        let pixels = width * height;
+        let gather = gather::gather(gpu, pixels, camera.position, scene.has_specular(), &settings)?;
+        let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
+        let batches_a_step = (DIRECTIONS_A_STEP / directions_a_batch) as usize;
+        let place = move || {
+            let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
+            Ok((gather::batches(gpu, &lights, seed)?, times))
+        };
+        Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
     }
-}
-
-/// The frame on the adapter, where it is one that virtual spherical lights can render.
-fn accepted<'a>(frame: &Frame<'a>) -> Result<&'a GpuFrame, Error> {
-    let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
-    let Transport::Indirect { bounces: 1, visibility } = frame.transport else {
-        return declined("computes one indirect bounce: use --transport indirect-1");
-    };
-    if visibility == Visibility::Traced {
-        return declined("has no shadow test for its last segment: use --visibility ignored");
-    }
-    if frame.scene.emissive_triangles().next().is_some() {
-        return declined("needs point-like primary lights; this scene has emissive triangles");
-    }
-    if frame.scene.lights.is_empty() {
-        return declined("needs a point, spot or directional light; this scene has none");
-    }
-    frame.gpu.ok_or_else(|| Error::Failed("vsl runs on the adapter and was given none".into()))
 }
 
 /// Radiance of given surfaces under given lights, by the adapter's kernels: what a picture does, for
@@ -145,8 +127,8 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
         || lights.iter().any(|sphere| sphere.light.brdf.has_specular());
-    let gather = Gather::new(gpu, surfaces.len() as u32, camera, specular, settings)?;
-    let batches = Batches::new(gpu, lights, seed)?;
-    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.len())?;
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings)?;
+    let batches = gather::batches(gpu, lights, seed)?;
+    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()
 }

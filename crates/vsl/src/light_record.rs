@@ -1,21 +1,12 @@
-//! Virtual spherical lights, and as the gather reads them from uniform memory.
+//! Virtual spherical lights as the gather reads them from uniform memory.
 
 use std::f32::consts::FRAC_1_PI;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::VirtualLight;
 
+use crate::SphericalLight;
 use crate::noise::light_key;
-
-/// A virtual light and the sphere that stands for it.
-#[derive(Clone, Copy, Debug)]
-pub struct SphericalLight {
-    /// Its centre, its flux, its reflectance.
-    pub light: VirtualLight,
-    /// Metres; 0 makes it a point.
-    pub radius: f32,
-}
 
 /// What all lights have: 48 bytes.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

@@ -75,6 +75,14 @@ impl Settings {
     }
 }
 
+impl Settings {
+    /// Of all strategies together.
+    pub(crate) fn directions_a_pair(&self) -> u64 {
+        let strategies = if self.sampling == Sampling::Both { 2 } else { 1 };
+        strategies * u64::from(self.samples)
+    }
+}
+
 impl Sampling {
     pub(crate) fn has_brdf(self) -> bool {
         self != Self::Cone
