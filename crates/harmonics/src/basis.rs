@@ -66,8 +66,8 @@ impl<R: Real> Basis<R> {
     /// displacement of the point: ∇_p Y_lm(p/|p|), which is the gradient on the sphere over |p|.
     ///
     /// # Panics
-    /// Where the square of |p| or 1/|p| over- or underflows, or is not a number. Lengths of 1e-18 to
-    /// 1e18 are safe (1e-150 to 1e150 in f64).
+    /// Where the square of |p| over- or underflows or is not a number. Lengths of 1e-18 to 1e18 are
+    /// safe (1e-150 to 1e150 in f64).
     pub fn evaluate_with_gradient_at(
         &self,
         point: [R; 3],
