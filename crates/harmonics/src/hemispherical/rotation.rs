@@ -10,8 +10,8 @@ pub enum Overlap {
     /// projection of what the source holds, and darker by the crescent that it does not.
     Exact,
     /// The source mirrored about its horizon, H_j at (x, y, |z|): ours, the best cheap fill. At a
-    /// tilt of 10° it leaves 0.011 of relative L2 error in smooth radiance where the exact overlap
-    /// leaves 0.18.
+    /// tilt of 10° it leaves 0.005 of relative L2 error in the tests' smooth radiance, in 7 bands,
+    /// where the exact overlap leaves 0.20.
     Mirrored,
 }
 
