@@ -53,7 +53,7 @@ fn the_mirrored_table_loses_less() {
         let (exact, mirrored) =
             (tilt_error(Overlap::Exact, degrees), tilt_error(Overlap::Mirrored, degrees));
         println!("{degrees}: exact {exact:.3}, mirrored {mirrored:.3}");
-        assert!(mirrored < 0.25 * exact, "{degrees}: exact {exact:.3}, mirrored {mirrored:.3}");
+        assert!(mirrored < 0.1 * exact, "{degrees}: exact {exact:.3}, mirrored {mirrored:.3}");
         if degrees == 10.0 {
             // What the documentation of `Overlap` tells, to its digits.
             assert!((exact - 0.20).abs() <= 0.005 && (mirrored - 0.005).abs() <= 0.0005);
@@ -100,7 +100,7 @@ fn what_mirroring_continues_turns_exactly() {
     // Between two tilts Δ apart the matrix is off by Δ²/8 of its second derivative.
     let [coarse, fine] = [4, 8].map(|steps| turned_error::<f64>([0.4, 0.35, -1.3], 0.8, steps));
     println!("between tilts: {coarse:.1e} {fine:.1e}");
-    assert!(fine < 2e-2 && fine < 0.5 * coarse, "{coarse:e} {fine:e}");
+    assert!(fine < 5e-3 && fine < 0.5 * coarse, "{coarse:e} {fine:e}");
 }
 
 /// The largest tilt as the scalar has it, which may round above or below the one given.
