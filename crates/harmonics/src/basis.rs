@@ -64,6 +64,10 @@ impl<R: Real> Basis<R> {
 
     /// Like [`Self::evaluate_with_gradient`] at the direction of `point` ≠ 0, with the gradient per
     /// displacement of the point: ∇_p Y_lm(p/|p|), which is the gradient on the sphere over |p|.
+    ///
+    /// # Panics
+    /// Where the square of |p| over- or underflows or is not a number. Lengths of 1e-18 to 1e18 are
+    /// safe (1e-150 to 1e150 in f64).
     pub fn evaluate_with_gradient_at(
         &self,
         point: [R; 3],
@@ -71,8 +75,10 @@ impl<R: Real> Basis<R> {
         gradients: [&mut [R]; 3],
     ) {
         let [x, y, z] = point;
-        let inverse = (x * x + y * y + z * z).sqrt().recip();
-        assert!(inverse.is_finite(), "a point with a direction, not {point:?}");
+        let square = x * x + y * y + z * z;
+        // A subnormal square has lost digits of the length.
+        assert!(square.is_normal(), "a point with a direction, not {point:?}");
+        let inverse = square.sqrt().recip();
         let direction = point.map(|component| component * inverse);
         self.write_with_gradient(direction, inverse, values, gradients);
     }

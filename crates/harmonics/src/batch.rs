@@ -11,10 +11,8 @@
 //!
 //! # Cost
 //! A pair (l, ±m) takes 9 vector instructions for values and 20 with gradients (a fused multiply-add is
-//! one), 2 and 8 stores. With two 512-bit units and one such store per cycle, gradients take 10 cycles
-//! of arithmetic against 8 of stores for 16 directions in f32: 0.63 (bands² + bands)/2 cycles per
-//! direction at best. Past the first-level cache the memory's write speed is the limit.
-//! `results/sh-speed` has the measured fractions.
+//! one), 2 and 8 stores. Batches of 100 000 directions were written at 50 to 77 % of the rate at which
+//! the same memory is filled with a constant (`results/sh-speed/sphericart.md`, which has the times).
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch};
@@ -59,6 +57,9 @@ impl<R: Vectors> Basis<R> {
 
     /// Like [`Self::evaluate_batch_with_gradients`] at the directions of points ≠ 0, with gradients per
     /// displacement of the point: ∇_p Y_lm(p/|p|).
+    ///
+    /// Points are 1e-18 to 1e18 long (1e-150 to 1e150 in f64), which nothing checks: the square of
+    /// another length over- or underflows, and what is written for it is wrong or not finite.
     pub fn evaluate_batch_with_gradients_at(&self, points: [&[R]; 3], output: &mut [R]) {
         self.batch::<true>(points, output, true);
     }

@@ -121,6 +121,11 @@ impl<R: Real> Local<R> {
         Self { bands, entries }
     }
 
+    /// (l, l' ≤ l, m ≥ 0, ∫ Y_lm max(0, z) Y_l'm), m by m, then l by l, l' ascending.
+    pub(crate) fn entries(&self) -> &[(u32, u32, u32, R)] {
+        &self.entries
+    }
+
     /// Number of multiplications of a product: non-zeros of the whole matrix.
     pub fn non_zeros(&self) -> usize {
         let times = |m| if m > 0 { 2 } else { 1 };

@@ -11,9 +11,9 @@ use crate::{MAX_BANDS, Real};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<R> {
     q_from_q: R,
-    q_from_d: R,
-    d_from_d: R,
-    d_from_q: R,
+    pub(crate) q_from_d: R,
+    pub(crate) d_from_d: R,
+    pub(crate) d_from_q: R,
 }
 
 impl<R: Real> Step<R> {
@@ -32,7 +32,7 @@ impl<R: Real> Step<R> {
 #[derive(Clone, Debug)]
 pub(crate) struct Recurrence<R> {
     pub(crate) bands: usize,
-    /// Q_m^m, √2 of m > 0 included.
+    /// Q_m^m, see [`diagonal`].
     diagonal: Vec<R>,
     /// Steps in the order of use: m from 0, then l from m + 1.
     steps: Vec<Step<R>>,
@@ -41,26 +41,30 @@ pub(crate) struct Recurrence<R> {
 impl<R: Real> Recurrence<R> {
     pub(crate) fn new(bands: usize) -> Self {
         assert!(bands >= 1, "an expansion has at least one band");
-        let mut diagonal = Vec::with_capacity(bands);
-        let mut value = (0.25 / std::f64::consts::PI).sqrt();
-        for m in 0..bands {
-            if m > 0 {
-                let m = m as f64;
-                value *= ((2.0 * m + 1.0) / (2.0 * m)).sqrt();
-            }
-            let factor = if m > 0 { std::f64::consts::SQRT_2 } else { 1.0 };
-            diagonal.push(R::of(value * factor));
-        }
-        let steps = (0..bands)
-            .flat_map(|m| (m + 1..bands).map(move |l| step(l as f64, m as f64)))
-            .collect();
-        Self { bands, diagonal, steps }
+        let steps = (0..bands).flat_map(|m| (m + 1..bands).map(move |l| step(l, m))).collect();
+        Self { bands, diagonal: (0..bands).map(|m| R::of(diagonal(m))).collect(), steps }
     }
 }
 
-/// From (l − m) P_l⁽ᵐ⁾ = (l + m) z P_{l−1}⁽ᵐ⁾ − s² P_{l−1}⁽ᵐ⁺¹⁾ and
+/// Q_m^m, √2 of m > 0 included.
+pub(crate) fn diagonal(m: usize) -> f64 {
+    let product: f64 = (1..=m).map(|k| 1.0 + 0.5 / k as f64).product();
+    let sides = if m > 0 { 2.0 } else { 1.0 };
+    (sides * product * 0.25 / std::f64::consts::PI).sqrt()
+}
+
+/// a and b of Sloan's Q_l^m = a z Q_{l−1}^m − b Q_{l−2}^m, `l` > `m`; b is 0 for l = m + 1.
+pub(crate) fn three_term(l: usize, m: usize) -> [f64; 2] {
+    let (degree, order) = (l as f64, m as f64);
+    let a = |l: f64| ((4.0 * l * l - 1.0) / (l * l - order * order)).sqrt();
+    let b = if l > m + 1 { a(degree) / a(degree - 1.0) } else { 0.0 };
+    [a(degree), b]
+}
+
+/// The step to band `l` > `m`. From (l − m) P_l⁽ᵐ⁾ = (l + m) z P_{l−1}⁽ᵐ⁾ − s² P_{l−1}⁽ᵐ⁺¹⁾ and
 /// P_l⁽ᵐ⁺¹⁾ = z P_{l−1}⁽ᵐ⁺¹⁾ + (l + m) P_{l−1}⁽ᵐ⁾ (derivatives of Legendre's polynomials), times √2 K_l^m.
-fn step<R: Real>(l: f64, m: f64) -> Step<R> {
+pub(crate) fn step<R: Real>(l: usize, m: usize) -> Step<R> {
+    let (l, m) = (l as f64, m as f64);
     let norm = ((2.0 * l + 1.0) * (l - m) / ((2.0 * l - 1.0) * (l + m))).sqrt();
     Step {
         q_from_q: R::of(norm * (l + m) / (l - m)),

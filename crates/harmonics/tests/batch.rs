@@ -45,7 +45,7 @@ fn batch_is_single_in_both_precisions() {
 
 /// A point's batch is that of its direction, which rounding moves by ε: band l by l(l + 1)/2 of that.
 fn batch_at_points_is_that_of_directions<R: Vectors>() {
-    let scales = [1e-6, 0.3, 1.0, 250.0, 1e9];
+    let scales = [1e-18, 1e-6, 0.3, 1.0, 250.0, 1e9, 1e18];
     let z = vec![R::of(0.8); scales.len()];
     let axes = [0.36, 0.48, 0.8].map(|c| scales.map(|scale| R::of(c * scale)));
     let basis = Basis::<R>::new(MAX_BANDS);

@@ -106,3 +106,23 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_point_whose_square_is_no_normal_number_panics() {
+    let basis = Basis::<f32>::new(2);
+    let gradient_at = |length: f32| {
+        let (mut values, mut gradients) = ([0.0; 4], [[0.0; 4]; 3]);
+        let slices = gradients.each_mut().map(|axis| &mut axis[..]);
+        basis.evaluate_with_gradient_at([0.6 * length, 0.0, -0.8 * length], &mut values, slices);
+        gradients[2][index(1, 0)] * length
+    };
+    for length in [0.0, 1e-20, 1e20, f32::NAN] {
+        assert!(std::panic::catch_unwind(|| gradient_at(length)).is_err(), "{length}");
+    }
+    // ∂z of √(3/4π) z/|p| is √(3/4π) (x² + y²)/|p|³.
+    let truth = (0.75 / std::f32::consts::PI).sqrt() * 0.36;
+    for length in [1e-18, 1.0, 1e18] {
+        let error = (gradient_at(length) - truth).abs();
+        assert!(error < 1e-6 * truth, "{length}: {error:e}");
+    }
+}

@@ -1,18 +1,15 @@
 //! Hemispherical harmonics against quadrature and against their definition.
 
+mod hemisphere;
+
 use std::f64::consts::TAU;
 
-use manylights_harmonics::hemispherical::{HemisphericalBasis, Overlap, TiltTable, Transfer};
+use hemisphere::{above, expand, graded, project, pseudo_random};
+use manylights_harmonics::hemispherical::{HemisphericalBasis, Transfer};
 use manylights_harmonics::projection::scalar_product;
-use manylights_harmonics::quadrature::{gauss_legendre, sphere_nodes};
+use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_harmonics::{Basis, count, index};
 use proptest::prelude::*;
-
-fn above(bands: usize, direction: [f64; 3]) -> Vec<f64> {
-    let mut values = vec![0.0; count(bands)];
-    HemisphericalBasis::new(bands).evaluate(direction, &mut values);
-    values
-}
 
 #[test]
 fn they_are_orthonormal() {
@@ -113,34 +110,6 @@ fn only_m_0_is_left_at_the_horizon() {
     }
 }
 
-/// Nodes over the hemisphere, dense towards the horizon, where HSH are analytic in √z only.
-fn graded(count: usize) -> Vec<([f64; 3], f64)> {
-    let turns = 2 * count;
-    let rings = gauss_legendre(count).into_iter().map(|(node, weight)| {
-        let root = 0.5 * (1.0 + node);
-        (root * root, weight * root)
-    });
-    rings
-        .flat_map(|(z, weight)| {
-            let r = (1.0 - z * z).sqrt();
-            (0..turns).map(move |k| {
-                let (s, c) = (TAU * k as f64 / turns as f64).sin_cos();
-                ([r * c, r * s, z], weight * TAU / turns as f64)
-            })
-        })
-        .collect()
-}
-
-fn pseudo_random(size: usize) -> Vec<f64> {
-    (0..size).map(|i| (12.9898 * (i + 1) as f64).sin() * (4.1 * i as f64).cos()).collect()
-}
-
-fn expand(basis: &Basis<f64>, coefficients: &[f64], direction: [f64; 3]) -> f64 {
-    let mut values = vec![0.0; coefficients.len()];
-    basis.evaluate(direction, &mut values);
-    values.iter().zip(coefficients).map(|(y, c)| y * c).sum()
-}
-
 #[test]
 fn transfer_is_the_projection_in_both_ways() {
     let (hemispherical, spherical) = (6, 5);
@@ -148,11 +117,8 @@ fn transfer_is_the_projection_in_both_ways() {
     let (h_basis, y_basis) = (HemisphericalBasis::new(hemispherical), Basis::new(spherical));
     let given = pseudo_random(count(spherical));
     let mut result = vec![0.0; count(hemispherical)];
-    let (mut truth, mut scratch) = (result.clone(), result.clone());
     transfer.to_hemispherical(&given, &mut result);
-    let f = |direction| expand(&y_basis, &given, direction);
-    let evaluate = |d, values: &mut [f64]| h_basis.evaluate(d, values);
-    scalar_product(graded(40), evaluate, f, &mut scratch, &mut truth);
+    let truth = project(&h_basis, |direction| expand(&y_basis, &given, direction));
     assert!(result.iter().zip(&truth).all(|(a, b)| (a - b).abs() < 1e-12));
 
     let given = pseudo_random(count(hemispherical));
@@ -164,56 +130,4 @@ fn transfer_is_the_projection_in_both_ways() {
     let evaluate = |d, values: &mut [f64]| y_basis.evaluate(d, values);
     scalar_product(graded(40), evaluate, f, &mut scratch, &mut truth);
     assert!(result.iter().zip(&truth).all(|(a, b)| (a - b).abs() < 1e-12));
-}
-
-#[test]
-fn rotations_about_the_normal_are_exact() {
-    let bands = 5;
-    let table = TiltTable::<f64>::new(bands, Overlap::Mirrored, 0.5, 2);
-    let given = pseudo_random(count(bands));
-    let mut turned = vec![0.0; count(bands)];
-    table.rotate([0.4, 0.0, 0.3], &mut given.clone(), &mut turned);
-    let at = |phi: f64| above(bands, [0.6 * phi.cos(), 0.6 * phi.sin(), 0.8]);
-    let sum = |h: Vec<f64>, c: &[f64]| h.iter().zip(c).map(|(h, c)| h * c).sum::<f64>();
-    let difference = sum(at(1.0), &turned) - sum(at(0.3), &given);
-    // R_y(0) is a quadrature, not a constant.
-    assert!(difference.abs() < 1e-12, "{difference:e}");
-}
-
-/// Smooth radiance seen in a tilted frame: relative L2 errors of the coefficients.
-fn tilt_error(overlap: Overlap, degrees: f64) -> f64 {
-    let (bands, beta) = (7, degrees.to_radians());
-    let smooth = Basis::new(5);
-    let mut field: Vec<_> = (0..5)
-        .flat_map(|l| vec![1.0 / (1.0 + l as f64).powi(2); 2 * l + 1])
-        .zip(pseudo_random(25))
-        .map(|(decay, c)| decay * c)
-        .collect();
-    // Radiance is positive.
-    field[0] = 3.0;
-    let basis = HemisphericalBasis::new(bands);
-    let project = |f: &dyn Fn([f64; 3]) -> f64| {
-        let mut coefficients = vec![0.0; count(bands)];
-        let evaluate = |d, values: &mut [f64]| basis.evaluate(d, values);
-        scalar_product(graded(40), evaluate, f, &mut vec![0.0; count(bands)], &mut coefficients);
-        coefficients
-    };
-    let mut source = project(&|d| expand(&smooth, &field, d));
-    let (s, c) = beta.sin_cos();
-    let truth = project(&|[x, y, z]| expand(&smooth, &field, [c * x - s * z, y, s * x + c * z]));
-    let table = TiltTable::<f64>::new(bands, overlap, beta, 1);
-    let mut result = vec![0.0; count(bands)];
-    table.rotate([0.0, beta, 0.0], &mut source, &mut result);
-    let norm = |v: &mut dyn Iterator<Item = f64>| v.map(|c| c * c).sum::<f64>().sqrt();
-    norm(&mut result.iter().zip(&truth).map(|(a, b)| a - b)) / norm(&mut truth.iter().copied())
-}
-
-#[test]
-fn the_mirrored_table_loses_less() {
-    for degrees in [5.0, 10.0, 20.0] {
-        let (exact, mirrored) =
-            (tilt_error(Overlap::Exact, degrees), tilt_error(Overlap::Mirrored, degrees));
-        println!("{degrees}: exact {exact:.3}, mirrored {mirrored:.3}");
-        assert!(mirrored < 0.25 * exact, "{degrees}: exact {exact:.3}, mirrored {mirrored:.3}");
-    }
 }

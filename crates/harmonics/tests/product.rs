@@ -49,6 +49,15 @@ fn the_product_is_the_projection_of_the_product() {
     }
 }
 
+/// The counts that the documentation tells.
+#[test]
+fn tables_hold_as_many_integrals() {
+    assert_eq!(Product::<f64>::new(3).integrals(), 52);
+    assert_eq!(Product::<f64>::new(9).integrals(), 12_057);
+    // No scale of the cosine is zero in 3 bands.
+    assert_eq!(Folded::<f64>::new(3, 3).integrals(), 83);
+}
+
 #[test]
 fn one_is_the_unit_of_the_product() {
     let bands = 9;
@@ -110,6 +119,10 @@ fn the_local_product_holds_the_cosine_itself() {
         let blocks: usize =
             (0..bands).map(|m| (bands - m).pow(2) * if m > 0 { 2 } else { 1 }).sum();
         assert!(local.non_zeros() <= blocks, "{} of {blocks}", local.non_zeros());
+        if bands == 5 {
+            // Of 85 in the blocks.
+            assert_eq!((local.non_zeros(), blocks), (77, 85));
+        }
     }
 }
 

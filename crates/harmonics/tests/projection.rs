@@ -62,6 +62,12 @@ fn fibonacci_points_cover_their_part_evenly() {
     }
 }
 
+#[test]
+#[should_panic(expected = "at least one sample")]
+fn a_fit_to_nothing_panics() {
+    LeastSquares::new(&Basis::<f64>::new(2), &[]);
+}
+
 fn condition(bands: usize, samples: usize) -> f64 {
     let nodes: Vec<_> = fibonacci(samples, WHOLE).map(|(d, _)| d).collect();
     LeastSquares::new(&Basis::new(bands), &nodes).condition()

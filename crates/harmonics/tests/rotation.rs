@@ -82,6 +82,11 @@ fn quarter_and_half_turns_and_the_identity_are_exact() {
         [[o, -i, o], [i, o, o], [o, o, i]],
         common::about([0.6, 0.0, 0.8], 1e-7),
         common::about([0.6, 0.8, 0.0], 1e-9),
+        // Squares of these underflow in f32, of the last in f64.
+        common::about([0.8, -0.6, 0.0], 1e-20),
+        common::about([0.8, -0.6, 0.0], 1e-21),
+        common::about([0.8, -0.6, 0.0], 1e-22),
+        common::about([0.8, -0.6, 0.0], 1e-161),
     ] {
         let [blocks, turns] = turned::<f64>(bands, &q, &input);
         assert!(difference(&blocks, &turns) < 1e-12, "{q:?}: {}", difference(&blocks, &turns));

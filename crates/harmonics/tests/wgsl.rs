@@ -2,6 +2,7 @@
 //! workspace's tests.
 
 mod straight_line;
+mod unit;
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,6 +13,7 @@ use manylights_harmonics::zonal::{Cap, cap_rate_stable, cap_stable};
 use manylights_harmonics::{Basis, MAX_BANDS, count, even_index, index};
 use proptest::prelude::*;
 use straight_line::{Numbers, run};
+use unit::{normalised, unit};
 
 /// The poles, the axes, both with one small component, and some directions between.
 fn directions() -> Vec<[f32; 3]> {
@@ -28,24 +30,6 @@ fn directions() -> Vec<[f32; 3]> {
     }
     list.extend(fibonacci(40, [-1.0, 1.0]).map(|(d, _): ([f64; 3], f64)| unit(d)));
     list
-}
-
-/// The direction of f32 components nearest to unit length among some beside the given one: a component
-/// off by δ moves band l by up to l(l + 1)/2 δ.
-fn unit(direction: [f64; 3]) -> [f32; 3] {
-    let largest = direction.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let error = |d: &[f32; 3]| (d.iter().map(|&c| f64::from(c).powi(2)).sum::<f64>() - 1.0).abs();
-    let candidates = (0..400).map(|i| {
-        let stretch = 1.0 + 1e-5 * f64::from(i);
-        let moved = direction.map(|c| if c.abs() < largest { c * stretch } else { c });
-        normalised(moved).map(|c| c as f32)
-    });
-    candidates.min_by(|a, b| error(a).total_cmp(&error(b))).expect("some candidates")
-}
-
-fn normalised(direction: [f64; 3]) -> [f64; 3] {
-    let length = direction.iter().map(|c| c * c).sum::<f64>().sqrt();
-    direction.map(|c| c / length)
 }
 
 fn vector([x, y, z]: [f32; 3]) -> Vec<(&'static str, Numbers)> {

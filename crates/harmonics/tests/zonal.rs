@@ -55,6 +55,7 @@ fn every_rate_form_is_the_derivative_of_the_scales() {
         (zonal::cap_rate_stable, MAX_BANDS),
     ];
     type See = fn([f64; 3], f64) -> Option<Sighting<f64>>;
+    let mut worst = 0.0_f64;
     for see in [Sighting::of_sphere as See, Sighting::of_disk] {
         for distance in [1.2, 2.0, 7.0] {
             let at = |distance: f64| see([0.0, 0.0, distance], 1.0).expect("a direction");
@@ -68,12 +69,14 @@ fn every_rate_form_is_the_derivative_of_the_scales() {
                         zonal::cap_stable(at(distance).cap, &mut scales);
                         scales[l]
                     });
-                    // Extrapolated differences are good to some 1e-11 here.
-                    assert!((rate - slope).abs() < 1e-9, "{distance}, l = {l}: {rate} {slope}");
+                    worst = worst.max((rate - slope).abs());
                 }
             }
         }
     }
+    // Extrapolated differences are good to some 1e-12 here.
+    println!("worst rate {worst:.1e}");
+    assert!(worst < 1e-11, "{worst:e}");
 }
 
 #[test]
@@ -94,6 +97,10 @@ fn a_light_that_holds_the_point_is_the_whole_hemisphere_and_the_edge_is_continuo
     // The cap's edge opens with the root of the gap: α = √(2e-14).
     assert!(difference(&inside, &outside) < 2.0 * std::f64::consts::PI * 1.5e-7);
     assert_eq!(Sighting::of_sphere([0.0; 3], 1.0), None);
+    for [none, some] in [[1e-20_f32, 1e-18], [1e20, 1e18]] {
+        assert_eq!(Sighting::of_sphere([0.0, none, 0.0], 1.0), None);
+        assert!(Sighting::of_sphere([0.0, some, 0.0], 1.0).is_some());
+    }
     assert_eq!(Sighting::of_disk([f64::NAN, 0.0, 1.0], 1.0), None);
     assert_eq!(Sighting::of_disk([1.0, 0.0, 1.0], f64::INFINITY), None);
 }

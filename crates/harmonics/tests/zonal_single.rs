@@ -50,7 +50,7 @@ fn stable_rates_keep_their_digits() {
     let worst = ratios.map(|ratio| rate_error(zonal::cap_rate_stable, MAX_BANDS, ratio));
     let worst = worst.fold(0.0, f64::max);
     println!("worst error of stable rates {worst:.2e}");
-    assert!(worst <= 1e-5, "{worst}");
+    assert!(worst <= 2e-6, "{worst}");
 }
 
 /// c_l by the three-term recurrence in α: exact, but α near one has lost the digits of the cap.
@@ -76,9 +76,9 @@ fn the_papers_forms_lose_theirs() {
     let [wide, small, tiny] =
         [0.5, 1e-3, 1e-4].map(|ratio| rate_error(zonal::cap_rate_thesis, 10, ratio));
     println!("thesis' rates: {wide:.1e} {small:.1e} {tiny:.1e}");
-    assert!(wide < 1e-4 && small > 1e-2 && tiny.is_infinite(), "{wide} {small} {tiny}");
+    assert!(wide < 2e-6 && small > 1e-2 && tiny.is_infinite(), "{wide} {small} {tiny}");
     let worst = ratios().map(|ratio| cap_error(three_term, MAX_BANDS, ratio));
     let worst = worst.fold(0.0, f64::max);
     println!("worst error of the three-term recurrence {worst:.2e}");
-    assert!(worst > 3e-6, "{worst}");
+    assert!(worst > 1e-5, "{worst}");
 }

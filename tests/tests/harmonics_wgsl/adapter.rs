@@ -1,11 +1,15 @@
 //! Runs generated WGSL on the adapter at hand and compares it with f64.
 
+#[path = "../../../crates/harmonics/tests/unit/mod.rs"]
+mod unit;
+
 use std::sync::LazyLock;
 
 use manylights_gpu::{Binding, Dispatch, Gpu, Resource, link};
 use manylights_harmonics::wgsl::{Function, module};
 use manylights_harmonics::zonal::{Cap, cap_stable};
 use manylights_harmonics::{Basis, count};
+use unit::{normalised, unit};
 
 pub(crate) static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
@@ -79,25 +83,9 @@ pub(crate) fn inputs() -> Vec<[f32; 4]> {
     list.into_iter().enumerate().map(|(i, [x, y, z])| [x, y, z, sine(i)]).collect()
 }
 
-/// The f32 direction nearest to unit length among some beside the given one.
-fn unit(direction: [f64; 3]) -> [f32; 3] {
-    let error = |d: &[f32; 3]| (d.iter().map(|&c| f64::from(c).powi(2)).sum::<f64>() - 1.0).abs();
-    (0..400)
-        .map(|i| {
-            let stretch = 1.0 + 1e-5 * f64::from(i);
-            let largest = direction.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-            let moved = direction.map(|c| if c.abs() < largest { c * stretch } else { c });
-            let length = moved.iter().map(|c| c * c).sum::<f64>().sqrt();
-            moved.map(|c| (c / length) as f32)
-        })
-        .min_by(|a, b| error(a).total_cmp(&error(b)))
-        .expect("some candidates")
-}
-
 pub(crate) fn values(basis: &Basis<f64>, direction: [f64; 3]) -> Vec<f64> {
-    let length = direction.iter().map(|c| c * c).sum::<f64>().sqrt();
     let mut y = vec![0.0; count(basis.bands())];
-    basis.evaluate(direction.map(|c| c / length), &mut y);
+    basis.evaluate(normalised(direction), &mut y);
     y
 }
 
@@ -147,8 +135,7 @@ fn gradients(basis: &Basis<f64>, direction: [f64; 3]) -> Vec<f64> {
     let size = count(basis.bands());
     let mut axes = [0; 3].map(|_| vec![0.0; size]);
     let slices = axes.each_mut().map(|axis| &mut axis[..]);
-    let length = direction.iter().map(|c| c * c).sum::<f64>().sqrt();
-    basis.evaluate_with_gradient(direction.map(|c| c / length), &mut vec![0.0; size], slices);
+    basis.evaluate_with_gradient(normalised(direction), &mut vec![0.0; size], slices);
     (0..size).flat_map(|i| [axes[0][i], axes[1][i], axes[2][i]]).collect()
 }
 

@@ -5,6 +5,7 @@ use manylights_harmonics::projection::fibonacci;
 use manylights_harmonics::thesis::{Polynomials, SphericalGradients, to_cartesian};
 use manylights_harmonics::{Basis, count};
 
+use crate::unit::{normalised, unit};
 use crate::{Table, Worst};
 
 /// Largest number of bands of the polynomial form.
@@ -39,55 +40,58 @@ fn families() -> Vec<(&'static str, Vec<[f32; 3]>)> {
     ]
 }
 
-/// The direction of f32 components nearest to unit length among some beside the given one: a component
-/// off by δ moves band l by up to l(l + 1)/2 δ, which is not what is measured here.
-fn unit(direction: [f64; 3]) -> [f32; 3] {
-    let largest = direction.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let error = |d: &[f32; 3]| (d.iter().map(|&c| f64::from(c).powi(2)).sum::<f64>() - 1.0).abs();
-    let candidates = (0..400).map(|i| {
-        let stretch = 1.0 + 1e-5 * f64::from(i);
-        let moved = direction.map(|c| if c.abs() < largest { c * stretch } else { c });
-        normalised(moved).map(|c| c as f32)
-    });
-    candidates.min_by(|a, b| error(a).total_cmp(&error(b))).expect("some candidates")
+/// The forms for a number of bands.
+struct Forms {
+    polynomials: Option<Polynomials<f32>>,
+    spherical: SphericalGradients<f32>,
+    stable: Basis<f32>,
+    exact: Basis<f64>,
 }
 
-fn normalised(direction: [f64; 3]) -> [f64; 3] {
-    let length = direction.iter().map(|c| c * c).sum::<f64>().sqrt();
-    direction.map(|c| c / length)
-}
-
-pub(crate) fn values() -> Table {
-    let about = "Worst error relative to the largest value of the band in that direction.";
-    let mut table = Table::new("Values", about, &COLUMNS, 1e-5);
+/// A table over all directions and bands; `add` compares the forms in one direction, in the order of
+/// the columns.
+fn compare(
+    title: &str,
+    about: &str,
+    add: impl Fn(&Forms, [f32; 3], &mut [Worst; COLUMNS.len() - 1]),
+) -> Table {
+    let mut table = Table::new(title, about, &COLUMNS, 1e-5);
     for (family, directions) in families() {
         for bands in [5, 10, 20, 30] {
-            let size = count(bands);
-            let polynomials = (bands <= POLYNOMIAL_BANDS).then(|| Polynomials::<f32>::new(bands));
-            let spherical = SphericalGradients::<f32>::new(bands);
-            let (basis, exact) = (Basis::<f32>::new(bands), Basis::<f64>::new(bands));
-            let mut worst = [Worst::default(); 4];
-            let (mut truth, mut y) = (vec![0.0; size], vec![0.0; size]);
-            let (mut theta, mut phi) = (y.clone(), y.clone());
-            for &direction in &directions {
-                exact.evaluate(normalised(direction.map(f64::from)), &mut truth);
-                if let Some(polynomials) = &polynomials {
-                    polynomials.evaluate(direction, &mut y);
-                    worst[0].add_bands(&y, &truth);
-                }
-                spherical.direct(direction, &mut y, &mut theta, &mut phi);
-                worst[1].add_bands(&y, &truth);
-                spherical.sloans_like(direction, &mut y, &mut theta, &mut phi);
-                worst[2].add_bands(&y, &truth);
-                basis.evaluate(direction, &mut y);
-                worst[3].add_bands(&y, &truth);
-            }
+            let forms = Forms {
+                polynomials: (bands <= POLYNOMIAL_BANDS).then(|| Polynomials::new(bands)),
+                spherical: SphericalGradients::new(bands),
+                stable: Basis::new(bands),
+                exact: Basis::new(bands),
+            };
+            let mut worst = [Worst::default(); COLUMNS.len() - 1];
+            directions.iter().for_each(|&direction| add(&forms, direction, &mut worst));
             let [polynomial, rest @ ..] = worst.map(Some);
-            let polynomial = polynomial.filter(|_| polynomials.is_some());
+            let polynomial = polynomial.filter(|_| forms.polynomials.is_some());
             table.row(&format!("{family}, {bands}"), &[&[polynomial], &rest[..]].concat());
         }
     }
     table
+}
+
+pub(crate) fn values() -> Table {
+    let about = "Worst error relative to the largest value of the band in that direction.";
+    compare("Values", about, |forms, direction, worst| {
+        let size = count(forms.stable.bands());
+        let [mut y, mut theta, mut phi] = [0; 3].map(|_| vec![0.0; size]);
+        let mut truth = vec![0.0; size];
+        forms.exact.evaluate(normalised(direction.map(f64::from)), &mut truth);
+        if let Some(polynomials) = &forms.polynomials {
+            polynomials.evaluate(direction, &mut y);
+            worst[0].add_bands(&y, &truth);
+        }
+        forms.spherical.direct(direction, &mut y, &mut theta, &mut phi);
+        worst[1].add_bands(&y, &truth);
+        forms.spherical.sloans_like(direction, &mut y, &mut theta, &mut phi);
+        worst[2].add_bands(&y, &truth);
+        forms.stable.evaluate(direction, &mut y);
+        worst[3].add_bands(&y, &truth);
+    })
 }
 
 /// One component of a gradient, all coefficients, relative to the largest component of the band.
@@ -104,47 +108,28 @@ pub(crate) fn gradients() -> Table {
     let about = "Cartesian components of the tangential gradient; Direct and Sloan's-like through \
                  thesis 3.15. Worst error relative to the largest component of the band in that \
                  direction.";
-    let mut table = Table::new("Gradients", about, &COLUMNS, 1e-5);
-    for (family, directions) in families() {
-        for bands in [5, 10, 20, 30] {
-            let size = count(bands);
-            let polynomials = (bands <= POLYNOMIAL_BANDS).then(|| Polynomials::<f32>::new(bands));
-            let spherical = SphericalGradients::<f32>::new(bands);
-            let (basis, exact) = (Basis::<f32>::new(bands), Basis::<f64>::new(bands));
-            let mut worst = [Worst::default(); 4];
-            let [mut y, mut theta, mut phi] = [0; 3].map(|_| vec![0.0; size]);
-            let mut wide = vec![0.0; size];
-            let mut truth = [0; 3].map(|_| vec![0.0; size]);
-            let mut gradient = [0; 3].map(|_| vec![0.0; size]);
-            for &direction in &directions {
-                let slices = truth.each_mut().map(|axis| &mut axis[..]);
-                exact.evaluate_with_gradient(
-                    normalised(direction.map(f64::from)),
-                    &mut wide,
-                    slices,
-                );
-                if let Some(polynomials) = &polynomials {
-                    polynomials.gradient(direction, gradient.each_mut().map(|axis| &mut axis[..]));
-                    add_gradient(&mut worst[0], &gradient, &truth);
-                }
-                spherical.direct(direction, &mut y, &mut theta, &mut phi);
-                let slices = gradient.each_mut().map(|axis| &mut axis[..]);
-                to_cartesian(direction, &theta, &phi, slices);
-                add_gradient(&mut worst[1], &gradient, &truth);
-                spherical.sloans_like(direction, &mut y, &mut theta, &mut phi);
-                let slices = gradient.each_mut().map(|axis| &mut axis[..]);
-                to_cartesian(direction, &theta, &phi, slices);
-                add_gradient(&mut worst[2], &gradient, &truth);
-                let slices = gradient.each_mut().map(|axis| &mut axis[..]);
-                basis.evaluate_with_gradient(direction, &mut y, slices);
-                add_gradient(&mut worst[3], &gradient, &truth);
-            }
-            let [polynomial, rest @ ..] = worst.map(Some);
-            let polynomial = polynomial.filter(|_| polynomials.is_some());
-            table.row(&format!("{family}, {bands}"), &[&[polynomial], &rest[..]].concat());
+    compare("Gradients", about, |forms, direction, worst| {
+        let size = count(forms.stable.bands());
+        let [mut y, mut theta, mut phi] = [0; 3].map(|_| vec![0.0; size]);
+        let (mut wide, mut truth) = (vec![0.0; size], [0; 3].map(|_| vec![0.0; size]));
+        let mut gradient = [0; 3].map(|_| vec![0.0; size]);
+        let slices = truth.each_mut().map(|axis| &mut axis[..]);
+        let wide_direction = normalised(direction.map(f64::from));
+        forms.exact.evaluate_with_gradient(wide_direction, &mut wide, slices);
+        if let Some(polynomials) = &forms.polynomials {
+            polynomials.gradient(direction, gradient.each_mut().map(|axis| &mut axis[..]));
+            add_gradient(&mut worst[0], &gradient, &truth);
         }
-    }
-    table
+        forms.spherical.direct(direction, &mut y, &mut theta, &mut phi);
+        to_cartesian(direction, &theta, &phi, gradient.each_mut().map(|axis| &mut axis[..]));
+        add_gradient(&mut worst[1], &gradient, &truth);
+        forms.spherical.sloans_like(direction, &mut y, &mut theta, &mut phi);
+        to_cartesian(direction, &theta, &phi, gradient.each_mut().map(|axis| &mut axis[..]));
+        add_gradient(&mut worst[2], &gradient, &truth);
+        let slices = gradient.each_mut().map(|axis| &mut axis[..]);
+        forms.stable.evaluate_with_gradient(direction, &mut y, slices);
+        add_gradient(&mut worst[3], &gradient, &truth);
+    })
 }
 
 pub(crate) fn hemispherical() -> Table {

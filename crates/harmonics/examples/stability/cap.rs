@@ -13,7 +13,7 @@ const COLUMNS: [&str; 4] = ["r/d, bands", "closed forms", "thesis", "stable"];
 fn families() -> Vec<(String, Vec<[f32; 2]>)> {
     let mut list = vec![
         ("on the sphere, 1".to_owned(), vec![[0.7, 0.7]]),
-        ("inside, above 1".to_owned(), vec![[0.7, 0.5], [0.7, 0.1], [0.7, 1e-20]]),
+        ("inside, above 1".to_owned(), vec![[0.7, 0.5], [0.7, 0.1], [0.7, 1e-18]]),
         (
             "just outside, 1 − 1e-7 to 1 − 1e-2".to_owned(),
             (0..60).map(|i| [0.7, 0.7 * (1.0 + 10_f32.powf(-7.0 + i as f32 / 12.0))]).collect(),

@@ -4,6 +4,8 @@
 mod basis;
 mod cap;
 mod fit;
+#[path = "../../tests/unit/mod.rs"]
+mod unit;
 
 use std::fmt::Write as _;
 

@@ -1,5 +1,6 @@
 use super::HemisphericalBasis;
 use crate::quadrature::gauss_legendre;
+use crate::rotation::rotate_z;
 use crate::{Real, count, index};
 
 /// What a tilted frame sees where the source has no hemisphere.
@@ -9,8 +10,8 @@ pub enum Overlap {
     /// projection of what the source holds, and darker by the crescent that it does not.
     Exact,
     /// The source mirrored about its horizon, H_j at (x, y, |z|): ours, the best cheap fill. At a
-    /// tilt of 10° it leaves 0.011 of relative L2 error in smooth radiance where the exact overlap
-    /// leaves 0.18.
+    /// tilt of 10° it leaves 0.005 of relative L2 error in the tests' smooth radiance, in 7 bands,
+    /// where the exact overlap leaves 0.20.
     Mirrored,
 }
 
@@ -21,18 +22,25 @@ pub enum Overlap {
 #[derive(Clone, Debug)]
 pub struct TiltTable<R> {
     bands: usize,
-    largest: f64,
+    largest: R,
     /// For each tilt two dense blocks in turn, rows first: m ≥ 0, then m < 0.
     tilts: Vec<Vec<R>>,
 }
 
 impl<R: Real> TiltTable<R> {
-    /// Tables of `steps` + 1 tilts from 0 to `largest` ≤ π/2 rad, linear between.
+    /// Tables of `steps` + 1 ≥ 2 tilts from 0 to `largest` rad, linear between.
+    ///
+    /// # Panics
+    /// Where `largest`, rounded to `R`, is not above 0 and at most π/2, or `steps` is 0.
     pub fn new(bands: usize, overlap: Overlap, largest: f64, steps: usize) -> Self {
-        assert!(steps >= 1 && largest <= std::f64::consts::FRAC_PI_2, "tilts above the horizon");
+        let largest = R::of(largest);
+        assert!(steps >= 1, "a table has two tilts at least");
+        let tilts_above = largest > R::zero() && largest <= R::FRAC_PI_2();
+        assert!(tilts_above, "largest tilt {largest} is not in 0 … π/2");
         let tilts = (0..=steps)
             .map(|step| {
-                let entries = tilt(bands, overlap, largest * step as f64 / steps as f64);
+                let beta = largest.to_f64() * step as f64 / steps as f64;
+                let entries = tilt(bands, overlap, beta);
                 entries.into_iter().map(R::of).collect()
             })
             .collect();
@@ -43,13 +51,13 @@ impl<R: Real> TiltTable<R> {
     /// `target`. `source` is turned about z in place on the way; both hold bands² numbers.
     ///
     /// # Panics
-    /// Where `beta` is not between 0 and the largest tilt.
+    /// Where `beta` is not between 0 and the largest tilt, or a slice has another length.
     pub fn rotate(&self, [alpha, beta, gamma]: [R; 3], source: &mut [R], target: &mut [R]) {
         assert_eq!(source.len(), count(self.bands), "bands² coefficients");
         assert_eq!(target.len(), count(self.bands), "bands² coefficients");
-        turn(self.bands, gamma, source);
-        let place = beta.to_f64() / self.largest * (self.tilts.len() - 1) as f64;
-        assert!(place >= 0.0 && beta.to_f64() <= self.largest, "tilt {beta} is not in the table");
+        assert!(beta >= R::zero() && beta <= self.largest, "tilt {beta} is not in the table");
+        rotate_z(self.bands, gamma.sin_cos().into(), source);
+        let place = beta.to_f64() / self.largest.to_f64() * (self.tilts.len() - 1) as f64;
         let below = (place as usize).min(self.tilts.len() - 2);
         let share = R::of(place - below as f64);
         let (one, two) = (&self.tilts[below], &self.tilts[below + 1]);
@@ -60,19 +68,7 @@ impl<R: Real> TiltTable<R> {
             let entry = entries.next().unwrap_or_else(R::nan);
             target[row] += entry * source[column];
         });
-        turn(self.bands, alpha, target);
-    }
-}
-
-/// Rotation about z: each (H_l^m, H_l^−m) turns by m φ.
-fn turn<R: Real>(bands: usize, angle: R, values: &mut [R]) {
-    for m in 1..bands {
-        let (s, c) = (R::of(m as f64) * angle).sin_cos();
-        for l in m..bands {
-            let (even, odd) = (index(l, m as isize), index(l, -(m as isize)));
-            let (a, b) = (values[even], values[odd]);
-            (values[even], values[odd]) = (c * a - s * b, s * a + c * b);
-        }
+        rotate_z(self.bands, alpha.sin_cos().into(), target);
     }
 }
 

@@ -7,10 +7,13 @@ use crate::{Basis, Real, count};
 /// into coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Filter<R> {
-    /// 1/σ where σ exceeds this share of the largest, 0 elsewhere. With share 0 the plain
-    /// pseudo-inverse; the thesis (5.3.1) truncates.
+    /// 1/σ where σ exceeds this share of the largest, 0 elsewhere; the thesis (5.3.1) truncates.
+    ///
+    /// Share 0 cuts exact zeros only. A combination that the samples do not see at all mostly has a σ
+    /// of rounding, and comes out as rounding over rounding: where there may be some, the share is
+    /// well above the scalar's ε.
     Truncated(R),
-    /// σ/(σ² + λ²), λ this share of the largest: Tikhonov.
+    /// σ/(σ² + λ²), λ this share > 0 of the largest: Tikhonov.
     Tikhonov(R),
 }
 
@@ -30,8 +33,10 @@ pub struct LeastSquares<R> {
 }
 
 impl<R: Real> LeastSquares<R> {
-    /// Decomposes the matrix Y_j(ω_i): min(M, N)² max(M, N) operations, some ten times over.
+    /// Decomposes the matrix Y_j(ω_i) of at least one direction: min(M, N)² max(M, N) operations, some
+    /// ten times over.
     pub fn new(basis: &Basis<R>, directions: &[[R; 3]]) -> Self {
+        assert!(!directions.is_empty(), "a fit has at least one sample");
         let (samples, coefficients) = (directions.len(), count(basis.bands()));
         let mut rows = vec![R::zero(); samples * coefficients];
         for (&direction, row) in directions.iter().zip(rows.chunks_mut(coefficients)) {
@@ -50,7 +55,8 @@ impl<R: Real> LeastSquares<R> {
         }
     }
 
-    /// Largest over smallest singular value; infinite where some combination is unseen.
+    /// Largest over smallest of the min(M, N) singular values. Where all of M ≥ N samples leave a
+    /// combination unseen that is 1/ε or more, but seldom infinite: the smallest is then rounding.
     pub fn condition(&self) -> R {
         let smallest = self.singular.iter().fold(R::infinity(), |a, &b| a.min(b));
         self.largest() / smallest

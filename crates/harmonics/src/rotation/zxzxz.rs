@@ -56,11 +56,13 @@ impl<R: Real> Zxzxz<R> {
 
 /// [sin, cos] of the zyz Euler angles a, b, c: R_z(a) R_y(b) R_z(c), without trigonometry.
 ///
-/// Near the identity a is arbitrary; c is read from R_z(−a) Q, so that the two always fit together.
+/// Near the identity and near half turns about horizontal axes a is arbitrary; c is read from
+/// R_z(−a) Q, so that the two always fit together. Below ε² the sine moves nothing, and the squares
+/// behind it underflow soon after: there a is 0.
 fn turns<R: Real>(q: Matrix<R>) -> [[R; 2]; 3] {
     let sine = (q[0][2] * q[0][2] + q[1][2] * q[1][2]).sqrt();
-    let [s, c] =
-        if sine > R::zero() { [q[1][2] / sine, q[0][2] / sine] } else { [R::zero(), R::one()] };
+    let found = sine > R::epsilon() * R::epsilon();
+    let [s, c] = if found { [q[1][2] / sine, q[0][2] / sine] } else { [R::zero(), R::one()] };
     let last = [c * q[1][0] - s * q[0][0], c * q[1][1] - s * q[0][1]];
     [[s, c], [sine, q[2][2]], last]
 }

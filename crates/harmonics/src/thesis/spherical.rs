@@ -1,8 +1,9 @@
 //! Derivatives in (θ, φ), thesis section 3.2.2, and their conversion to Cartesian ones.
 
-use crate::{Real, count, index};
+use crate::recurrence::{diagonal, three_term};
+use crate::{Real, count, even_index, index};
 
-/// Factors of X_l^m (3.24) and of the derivatives (3.18), for l ≥ m at `l (l + 1) / 2 + m`.
+/// Factors of X_l^m (3.24) and of the derivatives (3.18), for l ≥ m at `even_index(l, m)`.
 #[derive(Clone, Copy, Debug)]
 struct Factors<R> {
     /// X_l = `ahead` z X_{l−1} − `behind` X_{l−2}, the normalisation included.
@@ -25,16 +26,8 @@ impl<R: Real> SphericalGradients<R> {
     /// Tables for `bands` ≥ 1 bands.
     pub fn new(bands: usize) -> Self {
         assert!(bands >= 1, "an expansion has at least one band");
-        let mut value = (0.25 / std::f64::consts::PI).sqrt();
-        let mut diagonal = Vec::with_capacity(bands);
-        for m in 0..bands {
-            let order = m as f64;
-            value *= if m > 0 { ((2.0 * order + 1.0) / (2.0 * order)).sqrt() } else { 1.0 };
-            diagonal.push(R::of(value * if m > 0 { std::f64::consts::SQRT_2 } else { 1.0 }));
-        }
-        let factors =
-            (0..bands).flat_map(|l| (0..=l).map(move |m| factors(l as f64, m as f64))).collect();
-        Self { bands, diagonal, factors }
+        let factors = (0..bands).flat_map(|l| (0..=l).map(move |m| factors(l, m))).collect();
+        Self { bands, diagonal: (0..bands).map(|m| R::of(diagonal(m))).collect(), factors }
     }
 
     /// *Direct*: values, ∂θ by 3.17 and 3.18 from the associated Legendre functions, ∂φ by 3.16. Each
@@ -53,7 +46,7 @@ impl<R: Real> SphericalGradients<R> {
             let (mut c, mut s, mut below) = (R::one(), R::zero(), R::zero());
             for m in 0..=l {
                 let at = index(l, m as isize);
-                let Factors { lower, raise, .. } = self.factors[l * (l + 1) / 2 + m];
+                let Factors { lower, raise, .. } = self.factors[even_index(l, m)];
                 let here = theta[at];
                 let raised = if m < l { raise * theta[at + 1] } else { R::zero() };
                 let slope = lower * below - raised;
@@ -82,7 +75,7 @@ impl<R: Real> SphericalGradients<R> {
             let (mut t_before, mut t) = (R::zero(), R::zero());
             for l in m..self.bands {
                 if l > m {
-                    let Factors { ahead, behind, .. } = self.factors[l * (l + 1) / 2 + m];
+                    let Factors { ahead, behind, .. } = self.factors[even_index(l, m)];
                     (t_before, t) = (t, ahead * (z * t - sine * q) - behind * t_before);
                     (q_before, q) = (q, ahead * z * q - behind * q_before);
                 }
@@ -104,7 +97,7 @@ impl<R: Real> SphericalGradients<R> {
         let (mut before, mut q) = (R::zero(), self.diagonal[m]);
         each(m, q);
         for l in m + 1..self.bands {
-            let Factors { ahead, behind, .. } = self.factors[l * (l + 1) / 2 + m];
+            let Factors { ahead, behind, .. } = self.factors[even_index(l, m)];
             (before, q) = (q, ahead * z * q - behind * before);
             each(l, q);
         }
@@ -126,17 +119,17 @@ impl<R: Real> SphericalGradients<R> {
     }
 }
 
-fn factors<R: Real>(l: f64, m: f64) -> Factors<R> {
-    let ahead = |l: f64| ((4.0 * l * l - 1.0) / (l * l - m * m)).sqrt();
-    let behind = if l - 1.0 > m { ahead(l) / ahead(l - 1.0) } else { 0.0 };
+fn factors<R: Real>(l: usize, m: usize) -> Factors<R> {
+    let [ahead, behind] = if l > m { three_term(l, m) } else { [0.0; 2] };
     // √2 stands in P_l^m for m > 0 only.
     let (down, up) = match m {
-        0.0 => (0.0, std::f64::consts::FRAC_1_SQRT_2),
-        1.0 => (std::f64::consts::FRAC_1_SQRT_2, 0.5),
+        0 => (0.0, std::f64::consts::FRAC_1_SQRT_2),
+        1 => (std::f64::consts::FRAC_1_SQRT_2, 0.5),
         _ => (0.5, 0.5),
     };
+    let (l, m) = (l as f64, m as f64);
     Factors {
-        ahead: R::of(if l > m { ahead(l) } else { 0.0 }),
+        ahead: R::of(ahead),
         behind: R::of(behind),
         lower: R::of(down * ((l + m) * (l - m + 1.0)).sqrt()),
         raise: R::of(up * ((l - m) * (l + m + 1.0)).sqrt()),

@@ -1,7 +1,7 @@
 //! Values and fused dot products of the basis; names as in [`crate::basis`].
 
-use super::constants::{diagonal, recurrence};
 use super::lines::{Factor, Lines, product, sum};
+use crate::recurrence::{diagonal, step, three_term};
 use crate::{count, even_count, even_index, index};
 
 /// Up to here the three-term recurrence of Q_l^0 serves at the poles; it takes second differences
@@ -72,7 +72,7 @@ impl Scope {
     /// Polynomials in z² for l − m ≤ 3, where they take fewer operations than the recurrence.
     fn z_part(&mut self, l: usize, m: usize) -> Factor {
         let diagonal = diagonal(m);
-        let step = |l: usize| recurrence(l, m);
+        let step = |l: usize| three_term(l, m);
         let number = Factor::Constant;
         let name = format!("q{l}_{m}");
         let expression = match l - m {
@@ -99,8 +99,7 @@ impl Scope {
         self.lines.bind(&name, expression)
     }
 
-    /// Q_l^0 from Q and D = dQ/dz of band l − 1 ≥ 3: with r = √((2l + 1)/(2l − 1)),
-    /// Q_l = r z Q − (r/l)(x² + y²) D and D_l = r z D + r l Q.
+    /// Q_l^0 from Q and D = dQ/dz of band l − 1 ≥ 3, as [`crate::Basis`] steps.
     fn zonal_part(&mut self, l: usize) -> Factor {
         let number = Factor::Constant;
         let before = l - 1;
@@ -108,10 +107,10 @@ impl Scope {
             let k = (7.0 / (4.0 * std::f64::consts::PI)).sqrt();
             self.lines.bind("d3", format_args!("{} * z2 - {}", number(7.5 * k), number(1.5 * k)));
         }
-        let degree = l as f64;
-        let r = ((2.0 * degree + 1.0) / (2.0 * degree - 1.0)).sqrt();
-        let (q, ratio) = (self.q(before, 0), number(r));
-        let (fall, rise) = (number(r / degree), number(r * degree));
+        // At m = 0 one factor serves both Q and D.
+        let step = step::<f64>(l, 0);
+        let (q, ratio) = (self.q(before, 0), number(step.d_from_d));
+        let (fall, rise) = (number(step.q_from_d), number(step.d_from_q));
         if l + 1 < self.bands {
             let slope = format!("{ratio} * z * d{before} + {rise} * {q}");
             self.lines.bind(&format!("d{l}"), slope);

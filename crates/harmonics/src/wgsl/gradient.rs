@@ -9,8 +9,8 @@
 use std::f64::consts::SQRT_2;
 
 use super::basis::Scope;
-use super::constants;
 use super::lines::{Factor, Lines, product, sum};
+use crate::recurrence::step;
 use crate::{count, index};
 
 /// Y_lm of one band, named.
@@ -69,12 +69,12 @@ pub(super) fn evaluate_with_gradient(bands: usize) -> Lines {
     scope.lines.give_array("vec4f", &results)
 }
 
-/// ∂_z R_lm.
+/// ∂_z R_lm = c R_l−1,m: what D takes of Q in a step of the recurrence.
 fn rise(before: &Band, l: usize, m: isize) -> Vec<Term> {
     if m.unsigned_abs() == l {
         return Vec::new();
     }
-    let factor = Factor::Constant(constants::rise(l, m.unsigned_abs()));
+    let factor = Factor::Constant(step::<f64>(l, m.unsigned_abs()).d_from_q);
     vec![Some((true, product(&[&factor, before.value(m)])))]
 }
 

@@ -10,7 +10,6 @@
 
 mod basis;
 mod cap;
-mod constants;
 mod gradient;
 mod lines;
 mod product;

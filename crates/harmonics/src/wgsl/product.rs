@@ -1,10 +1,7 @@
 //! Products of coefficient vectors.
 
-use std::f64::consts::PI;
-
-use super::constants::z_part;
 use super::lines::{Factor, Lines, product, sum};
-use crate::quadrature::gauss_legendre;
+use crate::clamped_cosine::Local;
 use crate::{count, even_count, even_index, index};
 
 pub(super) fn dot(bands: usize, even: bool) -> Lines {
@@ -26,46 +23,27 @@ pub(super) fn dot(bands: usize, even: bool) -> Lines {
     lines.give(format_args!("sum{}", bands - 1))
 }
 
-/// Thesis 4.6 by blocks of equal m; see [`clamped_cosine_entry`] for the zeros.
+/// Thesis 4.6: the matrix of [`Local`], row by row.
 pub(super) fn clamped_cosine(bands: usize, even: bool) -> Lines {
-    let nodes = gauss_legendre(bands + 1);
-    let mut values = vec![String::new(); if even { even_count(bands) } else { count(bands) }];
-    for m in 0..bands {
-        for l in m..bands {
-            let row: Vec<_> = (m..bands)
-                .filter(|&other| couples(l, other))
-                .map(|other| (other, clamped_cosine_entry(&nodes, [l, other], m)))
-                .collect();
-            let signed = m as isize;
-            let orders = if m == 0 || even { vec![signed] } else { vec![signed, -signed] };
-            for order in orders {
-                let place = |l: usize| if even { even_index(l, m) } else { index(l, order) };
-                values[place(l)] = sum(row.iter().map(|&(other, entry)| {
-                    let term = Factor::element("a", place(other));
-                    (entry >= 0.0, product(&[&Factor::Constant(entry.abs()), &term]))
-                }));
+    let size = if even { even_count(bands) } else { count(bands) };
+    let mut rows = vec![Vec::new(); size];
+    // In this order the terms of every row come with their bands ascending.
+    for &(l, other, m, entry) in Local::<f64>::new(bands).entries() {
+        let (l, other, m) = (l as usize, other as usize, m as usize);
+        let signs: &[isize] = if m == 0 || even { &[1] } else { &[1, -1] };
+        for sign in signs {
+            let place = |l| if even { even_index(l, m) } else { index(l, sign * m as isize) };
+            let (i, j) = (place(l), place(other));
+            let mut couple = |row: usize, column| {
+                let factors = [Factor::Constant(entry.abs()), Factor::element("a", column)];
+                rows[row].push((entry >= 0.0, product(&factors.each_ref())));
+            };
+            couple(i, j);
+            if i != j {
+                couple(j, i);
             }
         }
     }
+    let values: Vec<_> = rows.into_iter().map(sum).collect();
     Lines::default().give_array("f32", &values)
-}
-
-/// max(0, z) = (z + |z|)/2: z couples bands one apart, |z| those of equal parity.
-fn couples(l: usize, other: usize) -> bool {
-    let apart = l.abs_diff(other);
-    apart == 1 || apart.is_multiple_of(2)
-}
-
-/// ∫ Y_lm Y_l'm max(0, z) dω, by a quadrature on 0 ≤ z ≤ 1 that is exact for it.
-fn clamped_cosine_entry(nodes: &[(f64, f64)], bands: [usize; 2], m: usize) -> f64 {
-    let around = if m == 0 { 2.0 * PI } else { PI };
-    let integral: f64 = nodes
-        .iter()
-        .map(|&(node, weight)| {
-            let z = 0.5 * (1.0 + node);
-            let [one, two] = bands.map(|l| z_part(l, m, z));
-            0.5 * weight * z * (1.0 - z * z).powi(m as i32) * one * two
-        })
-        .sum();
-    around * integral
 }

@@ -23,7 +23,9 @@ pub struct Sighting<R> {
 impl<R: Real> Sighting<R> {
     /// A sphere of this radius whose centre lies at `offset` = y − x from the point.
     ///
-    /// `None` if the centre is the point (no direction is right) or a number is not finite.
+    /// `None` if the centre is the point (no direction is right), if the square of its distance over-
+    /// or underflows (distances of 1e-18 to 1e18 are safe, in f64 of 1e-150 to 1e150) or if a number is
+    /// not finite.
     pub fn of_sphere(offset: [R; 3], radius: R) -> Option<Self> {
         let (direction, distance) = polar(offset)?;
         let cap = Cap::of_sphere(radius, distance);
@@ -46,9 +48,10 @@ impl<R: Real> Sighting<R> {
 
 /// Direction and length, `None` without either.
 fn polar<R: Real>([x, y, z]: [R; 3]) -> Option<([R; 3], R)> {
-    let distance = (x * x + y * y + z * z).sqrt();
-    let found = distance.is_finite() && distance > R::zero();
-    found.then(|| ([x / distance, y / distance, z / distance], distance))
+    let square = x * x + y * y + z * z;
+    let distance = square.sqrt();
+    // A subnormal square has lost digits of the distance.
+    square.is_normal().then(|| ([x / distance, y / distance, z / distance], distance))
 }
 
 /// ∇_x of the coefficients of a light at a point x (thesis 3.26):

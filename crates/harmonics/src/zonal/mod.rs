@@ -7,7 +7,8 @@
 //! constants of the thesis' 3.10 fold into one factor a band all the same.
 //!
 //! Every cap form has the signature `(cap, scales)`, every derivative `(cap, rate, rates)`; the
-//! length of the slice is the number of bands. [`cap_stable`] and [`cap_rate_stable`] are the ones
+//! length of the slice is the number of bands. At most [`crate::MAX_BANDS`] bands: the tables of
+//! constants end there or shortly after, and more panic. [`cap_stable`] and [`cap_rate_stable`] are the ones
 //! to use; the papers' forms are here to be compared with and lose their digits in f32.
 
 mod cap;
