@@ -5,6 +5,7 @@ mod common;
 use std::path::PathBuf;
 
 use glam::{Vec3, vec3};
+use manylights_scene::presets::PRESETS;
 use manylights_scene::{Light, LoadError, Scene, load};
 use tempfile::TempDir;
 
@@ -74,6 +75,17 @@ fn a_scene_file_adds_and_overrides() {
 }
 
 #[test]
+fn presets_replace_the_factors_but_not_the_emission() {
+    let text = format!("{HEAD}[material.white]\npreset = \"teflon\"\nemission = [1, 2, 3]");
+    let scene = load_text(&text).expect("valid");
+    let white = scene.materials.iter().find(|material| material.name == "white").expect("is one");
+    let teflon = PRESETS.iter().find(|preset| preset.name == "teflon").expect("is one").brdf();
+    assert_eq!(white.brdf(Vec3::ONE), teflon);
+    assert_eq!(white.emission, vec3(1.0, 2.0, 3.0));
+    assert!(scene.has_specular());
+}
+
+#[test]
 fn lights_of_the_source_stay_unless_told_otherwise() {
     let light = "light = [{ kind = \"point\", position = [0, 1, 0], intensity = [1, 1, 1] }]";
     assert_eq!(load_text(&format!("{HEAD}{light}")).expect("valid").lights.len(), 2);
@@ -123,6 +135,16 @@ fn wrong_files_are_refused_with_a_line() {
         ("outer = 90", "to 89", spot("target = [0, 0, 1], inner = 3, outer = 90")),
         ("roughness = 1.5", "to 1", "[material.white]\nroughness = 1.5".to_owned()),
         ("emission is negative", "from 0", "[material.white]\nemission = [1, -1, 0]".to_owned()),
+        (
+            "unknown preset `gold-pant`",
+            "did you mean `gold-paint`?",
+            "[material.white]\npreset = \"gold-pant\"".to_owned(),
+        ),
+        (
+            "preset and ior exclude each other",
+            "keep one of them",
+            "[material.white]\npreset = \"teflon\"\nior = 1.3".to_owned(),
+        ),
         ("hall.toml:4: ", "correct", "\nexposure = = 2".to_owned()),
     ];
     for (problem, remedy, text) in cases {

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Error, Gpu, LightBatches, LightGather, VirtualLight, link};
+use manylights_gpu::{Error, Gpu, LightBatches, LightGather, Reflectances, VirtualLight, link};
 
 use crate::Settings;
 use crate::light_record::{GlossyLight, LambertLight};
@@ -14,21 +14,22 @@ const GLOSSY_CAPACITY: usize = 480;
 /// 64 lanes of four pixels.
 const PIXELS_A_GROUP: u32 = 256;
 
-/// The WGSL of the kernel for receivers and lights of the given lobes.
+/// The WGSL of the kernel for receivers of the given kinds, and lights that are Lambertian or not.
 ///
 /// # Errors
 /// Where the shader does not link.
 pub fn linked_shader(
-    glossy_receivers: bool,
+    kinds: &Reflectances,
     glossy_lights: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
-        ("glossy_receivers", glossy_receivers),
+        ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("clamped", settings.clamp.is_some()),
         ("attenuated", settings.radius.is_some()),
     ];
+    let features = [&features[..], &kinds.features()].concat();
     link("gather", include_str!("shaders/gather.wesl"), &[], &features)
 }
 
@@ -54,7 +55,7 @@ pub(crate) fn batches(gpu: &Gpu, lights: &[VirtualLight]) -> Result<LightBatches
     LightBatches::new(gpu, (&lambert, LAMBERT_CAPACITY), (&glossy, GLOSSY_CAPACITY))
 }
 
-/// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
+/// For `pixels` surfaces of the given kinds, seen from `camera`.
 ///
 /// # Errors
 /// Where a shader does not link or the adapter refuses.
@@ -62,7 +63,7 @@ pub(crate) fn gather(
     gpu: &Gpu,
     pixels: u32,
     camera: Vec3,
-    specular: bool,
+    kinds: &Reflectances,
     settings: &Settings,
 ) -> Result<LightGather, Error> {
     let radius = settings.radius.unwrap_or(0.0);
@@ -74,6 +75,6 @@ pub(crate) fn gather(
         padding: [0; 2],
     };
     let wgsl =
-        [linked_shader(specular, false, settings)?, linked_shader(specular, specular, settings)?];
+        [linked_shader(kinds, false, settings)?, linked_shader(kinds, kinds.specular, settings)?];
     LightGather::new(gpu, pixels, PIXELS_A_GROUP, &view, wgsl.each_ref().map(String::as_str))
 }

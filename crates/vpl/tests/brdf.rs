@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use glam::{DVec3, Vec3};
 use manylights_gpu::{Gpu, SurfaceRecord, VirtualLight};
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Lobe};
 use manylights_vpl::{Settings, gather, oracle};
 use proptest::prelude::*;
 
@@ -18,7 +18,7 @@ fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
         position,
         alpha: brdf.alpha,
         normal,
-        f90: brdf.f90,
+        f90: brdf.lobe.slot(),
         diffuse: brdf.diffuse,
         triangle: 0,
         f0: brdf.f0,
@@ -41,14 +41,18 @@ fn direction() -> impl Strategy<Value = Vec3> {
 /// f0 starts at 0.02, below all real dielectrics: with f0 = 0 the lobe is Schlick's (1 − cos)⁵ alone,
 /// which keeps no digits where it vanishes.
 fn material() -> impl Strategy<Value = Brdf> {
-    (0.0_f32..1.0, 0.02_f32..1.0, 0.1_f32..1.0, 0.1_f32..1.0).prop_map(
-        |(diffuse, f0, f90, roughness)| Brdf {
-            diffuse: Vec3::splat(diffuse),
-            f0: Vec3::splat(f0),
-            f90: f90.max(f0),
-            alpha: roughness * roughness,
-        },
-    )
+    let lobe = prop_oneof![
+        (0.1_f32..1.0).prop_map(|f90| Lobe::Schlick { f90 }),
+        (1.05_f32..4.1).prop_map(|index| Lobe::Dielectric { index }),
+    ];
+    (0.0_f32..1.0, 0.02_f32..1.0, lobe, 0.1_f32..1.0).prop_map(|(diffuse, f0, lobe, roughness)| {
+        let lobe = match lobe {
+            Lobe::Schlick { f90 } => Lobe::Schlick { f90: f90.max(f0) },
+            exact => exact,
+        };
+        let [diffuse, f0] = [diffuse, f0].map(Vec3::splat);
+        Brdf { diffuse, f0, lobe, alpha: roughness * roughness }
+    })
 }
 
 /// Relative to the oracle, for each pair of one light and one of many surfaces.
@@ -112,6 +116,10 @@ proptest! {
     }
 }
 
+fn white_metal(alpha: f32) -> Brdf {
+    Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, lobe: Lobe::Schlick { f90: 1.0 }, alpha }
+}
+
 /// Albedo of a perfectly reflecting GGX surface seen at `view`, by midpoint quadrature in f64.
 fn albedo(brdf: &Brdf, view: DVec3) -> f64 {
     let (rings, sectors) = (2000, 1000);
@@ -153,8 +161,7 @@ fn furnace(brdf: &Brdf, view: Vec3) -> f32 {
 fn white_furnace_in_wgsl_loses_what_single_scattering_loses() {
     for roughness in [0.5_f32, 0.8, 1.0] {
         for cosine in [0.3_f32, 0.7, 1.0] {
-            let brdf =
-                Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, f90: 1.0, alpha: roughness * roughness };
+            let brdf = white_metal(roughness * roughness);
             let view = Vec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
             let truth = albedo(&brdf, view.as_dvec3());
             let measured = f64::from(furnace(&brdf, view));
@@ -170,7 +177,7 @@ fn white_furnace_in_wgsl_loses_what_single_scattering_loses() {
 fn the_quadrature_knows_the_closed_form() {
     // α = 1, f0 = 1, normal incidence: D = 1/π, V = 1/(2(1 + μ)), so the albedo is
     // ∫ μ/(1 + μ) dμ over [0, 1] = 1 − ln 2.
-    let brdf = Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, f90: 1.0, alpha: 1.0 };
+    let brdf = white_metal(1.0);
     let closed = 1.0 - std::f64::consts::LN_2;
     assert!((albedo(&brdf, DVec3::Y) - closed).abs() < 1e-6);
 }

@@ -1,7 +1,10 @@
 //! What the linked WGSL holds.
 
-use manylights_gpu::{Binding, Gpu};
+use manylights_gpu::{Binding, Gpu, Reflectances};
 use manylights_vpl::{Settings, linked_shader};
+
+const LAMBERT: Reflectances = Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };
+const GLOSSY: Reflectances = Reflectances { specular: true, exact_fresnel: false, measured: Vec::new() };
 
 fn every_setting() -> Vec<Settings> {
     let options = [None, Some(1.0)];
@@ -14,18 +17,19 @@ fn every_setting() -> Vec<Settings> {
 #[test]
 fn a_lambertian_scene_links_no_ggx() {
     for settings in every_setting() {
-        let wgsl = linked_shader(false, false, &settings).expect("links");
+        let wgsl = linked_shader(&LAMBERT, false, &settings).expect("links");
         for word in ["alpha2", "glossy", "schlick", "specular", "smith"] {
             assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
         }
     }
-    let glossy = linked_shader(true, true, &every_setting()[0]).expect("links");
+    let glossy = linked_shader(&GLOSSY, true, &every_setting()[0]).expect("links");
     assert!(glossy.contains("schlick") && glossy.contains("smith_view"));
+    assert!(!glossy.contains("relative_fresnel"));
 }
 
 #[test]
 fn options_that_are_off_are_not_in_the_shader() {
-    let plain = linked_shader(true, true, &every_setting()[0]).expect("links");
+    let plain = linked_shader(&GLOSSY, true, &every_setting()[0]).expect("links");
     assert!(!plain.contains("attenuation") && !plain.contains("view.clamp"));
 }
 
@@ -34,7 +38,10 @@ fn every_permutation_is_valid() {
     let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
     let bindings = [Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
     for settings in every_setting() {
-        for (receivers, lights) in [(false, false), (true, false), (true, true)] {
+        let exact = Reflectances { exact_fresnel: true, ..GLOSSY };
+        for (receivers, lights) in
+            [(&LAMBERT, false), (&GLOSSY, false), (&GLOSSY, true), (&exact, false), (&exact, true)]
+        {
             let wgsl = linked_shader(receivers, lights, &settings).expect("links");
             gpu.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
         }

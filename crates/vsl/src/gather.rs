@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Error, Gpu, LightBatches, LightGather, link};
+use manylights_gpu::{Error, Gpu, LightBatches, LightGather, Reflectances, link};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{Settings, SphericalLight};
@@ -13,21 +13,22 @@ pub(crate) const CAPACITY: usize = 128;
 
 const PIXELS_A_GROUP: u32 = 64;
 
-/// The WGSL of the kernel for receivers and lights of the given lobes.
+/// The WGSL of the kernel for receivers of the given kinds, and lights that are Lambertian or not.
 ///
 /// # Errors
 /// Where the shader does not link.
 pub fn linked_shader(
-    glossy_receivers: bool,
+    kinds: &Reflectances,
     glossy_lights: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
-        ("glossy_receivers", glossy_receivers),
+        ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("brdf_samples", settings.sampling.has_brdf()),
         ("cone_samples", settings.sampling.has_cone()),
     ];
+    let features = [&features[..], &kinds.features()].concat();
     let modules = [
         ("pair", include_str!("shaders/pair.wesl")),
         ("sampling", include_str!("shaders/sampling.wesl")),
@@ -63,7 +64,7 @@ pub(crate) fn batches(
     LightBatches::new(gpu, (&lambert, CAPACITY), (&glossy, CAPACITY))
 }
 
-/// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
+/// For `pixels` surfaces of the given kinds, seen from `camera`.
 ///
 /// # Errors
 /// Where a shader does not link or the adapter refuses.
@@ -71,11 +72,11 @@ pub(crate) fn gather(
     gpu: &Gpu,
     pixels: u32,
     camera: Vec3,
-    specular: bool,
+    kinds: &Reflectances,
     settings: &Settings,
 ) -> Result<LightGather, Error> {
     let view = View { camera, pixels, samples: settings.samples, padding: [0; 3] };
     let wgsl =
-        [linked_shader(specular, false, settings)?, linked_shader(specular, specular, settings)?];
+        [linked_shader(kinds, false, settings)?, linked_shader(kinds, kinds.specular, settings)?];
     LightGather::new(gpu, pixels, PIXELS_A_GROUP, &view, wgsl.each_ref().map(String::as_str))
 }

@@ -46,7 +46,7 @@ mod params;
 mod spherical_light;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, SurfaceRecord};
+use manylights_gpu::{Gpu, Reflectances, SurfaceRecord};
 use manylights_method::{
     Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
 };
@@ -100,7 +100,8 @@ impl Method for Vsl {
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
-        let gather = gather::gather(gpu, pixels, camera.position, scene.has_specular(), &settings)?;
+        let kinds = Reflectances::of_scene(scene);
+        let gather = gather::gather(gpu, pixels, camera.position, &kinds, &settings)?;
         let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
         let batches_a_step = (DIRECTIONS_A_STEP / directions_a_batch) as usize;
         let place = move || {
@@ -125,9 +126,9 @@ pub fn gather(
     settings: &Settings,
     seed: u64,
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
-    let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
-        || lights.iter().any(|sphere| sphere.light.brdf.has_specular());
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings)?;
+    let receivers = surfaces.iter().map(SurfaceRecord::brdf);
+    let kinds = Reflectances::of(receivers.chain(lights.iter().map(|sphere| sphere.light.brdf)));
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &kinds, settings)?;
     let batches = gather::batches(gpu, lights, seed)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()
