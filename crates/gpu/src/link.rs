@@ -19,6 +19,7 @@ const SHARED: [(&str, &str); 4] = [
     ("measured", include_str!("shaders/measured.wesl")),
     ("surface", include_str!("shaders/surface.wesl")),
     ("scene", include_str!("shaders/scene.wesl")),
+    ("visible", include_str!("shaders/visible.wesl")),
 ];
 
 /// The WGSL of the module `source`, with what it imports from the shared modules and from `modules`

@@ -6,6 +6,7 @@ use manylights_metrics::{Errors, RadianceImage};
 use manylights_scene::Scene;
 use serde::{Deserialize, Serialize};
 
+use crate::error::one_line;
 use crate::experiment::Experiment;
 use crate::plan::{Budget, Variant};
 use crate::provenance::{Provenance, sha256};
@@ -119,6 +120,18 @@ pub(crate) enum Outcome {
         /// In words.
         reason: String,
     },
+}
+
+impl Outcome {
+    /// Of a run that ended before it had a picture.
+    pub(crate) fn refused(error: manylights_method::Error) -> Self {
+        match error {
+            manylights_method::Error::Declined(reason) => {
+                Self::Declined { reason: one_line(&reason) }
+            }
+            manylights_method::Error::Failed(reason) => Self::Failed { reason: one_line(&reason) },
+        }
+    }
 }
 
 /// Times, counts and errors of a picture.

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use manylights_method::{Method, Parameters};
+use std::ops::RangeInclusive;
+
+use manylights_method::{Method, ParameterKind, Parameters};
 use serde::{Deserialize, Serialize};
 
 use crate::numbers::milliseconds;
@@ -48,6 +50,16 @@ impl Variant {
     /// As the label, without the swept parameter: variants that share it form one curve.
     pub(crate) fn series(&self) -> String {
         self.text(|name| name != self.swept && !self.is_searched(name))
+    }
+
+    /// What the cost parameter may be.
+    pub(crate) fn cost_range(&self) -> RangeInclusive<u64> {
+        let cost = self.method.cost_parameter();
+        let declared = self.method.parameters().iter().find(|info| info.name == cost);
+        match declared.map(|info| info.kind) {
+            Some(ParameterKind::Count { min, max, .. }) => min..=max,
+            _ => unreachable!("a test of the registry holds cost parameters to be counts"),
+        }
     }
 
     /// Whether the value of a parameter is found by the harness.

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Error, Gpu, LightBatches, LightGather, Reflectances, link};
+use manylights_gpu::{Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, link};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{Settings, SphericalLight};
@@ -20,6 +20,7 @@ const PIXELS_A_GROUP: u32 = 64;
 pub fn linked_shader(
     kinds: &Reflectances,
     glossy_lights: bool,
+    traced: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
@@ -27,6 +28,7 @@ pub fn linked_shader(
         ("glossy_lights", glossy_lights),
         ("brdf_samples", settings.sampling.has_brdf()),
         ("cone_samples", settings.sampling.has_cone()),
+        ("traced", traced),
     ];
     let features = [&features[..], &kinds.features()].concat();
     let modules = [
@@ -50,18 +52,24 @@ struct View {
 /// # Errors
 /// Where the adapter refuses.
 pub(crate) fn batches(
-    gpu: &Gpu,
+    gather: &LightGather,
     lights: &[SphericalLight],
     seed: u64,
 ) -> Result<LightBatches, Error> {
     let indexed = lights.iter().enumerate();
     let (glossy, lambert): (Vec<_>, Vec<_>) =
         indexed.partition(|(_, sphere)| sphere.light.brdf.has_specular());
+    let centers = [&lambert, &glossy].map(|lights| {
+        lights.iter().map(|(_, sphere)| Center::from(&sphere.light)).collect::<Vec<_>>()
+    });
     let lambert: Vec<_> =
         lambert.into_iter().map(|(i, sphere)| LambertLight::new(i, sphere, seed)).collect();
     let glossy: Vec<_> =
         glossy.into_iter().map(|(i, sphere)| GlossyLight::new(i, sphere, seed)).collect();
-    LightBatches::new(gpu, (&lambert, CAPACITY), (&glossy, CAPACITY))
+    gather.batches(
+        &Lights { records: &lambert, centers: &centers[0], capacity: CAPACITY },
+        &Lights { records: &glossy, centers: &centers[1], capacity: CAPACITY },
+    )
 }
 
 /// For `pixels` surfaces of the given kinds, seen from `camera`.
@@ -74,9 +82,15 @@ pub(crate) fn gather(
     camera: Vec3,
     kinds: &Reflectances,
     settings: &Settings,
+    shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     let view = View { camera, pixels, samples: settings.samples, padding: [0; 3] };
-    let wgsl =
-        [linked_shader(kinds, false, settings)?, linked_shader(kinds, kinds.specular, settings)?];
-    LightGather::new(gpu, pixels, PIXELS_A_GROUP, &view, wgsl.each_ref().map(String::as_str))
+    let traced = shadows.is_some();
+    let wgsl = [
+        linked_shader(kinds, false, traced, settings)?,
+        linked_shader(kinds, kinds.specular, traced, settings)?,
+    ];
+    let wgsl = wgsl.each_ref().map(String::as_str);
+    let tables = kinds.tables(gpu)?;
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, tables, shadows)
 }

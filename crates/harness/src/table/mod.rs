@@ -6,6 +6,7 @@ mod markdown;
 
 use crate::answer::{Medians, Rank, Row, RowResult, SceneAnswer};
 use crate::columns::Column;
+use crate::equal_time::miss;
 use crate::experiment::Experiment;
 use crate::numbers::{milliseconds, short};
 use crate::plan::Budget;
@@ -157,7 +158,7 @@ impl Place<'_> {
                 baseline.map(|medians| medians.seconds.median)
             }
         };
-        let off = budget.map(|budget| (medians.seconds.median / budget - 1.0).abs());
+        let off = budget.map(|budget| miss(medians.seconds.median, budget));
         if off.is_some_and(|off| off > TOLERANCE) { "!" } else { "" }
     }
 
@@ -247,7 +248,7 @@ pub(crate) fn published(experiment: &Experiment, scenes: &[SceneAnswer]) -> Opti
 /// What the numbers mean.
 pub(crate) fn foot(experiment: &Experiment) -> String {
     let mut text = format!(
-        "Time: wall clock of the work (median and quartiles), warmed up, without preparation, \
+        "Time: wall clock of the work (median and quartiles), on the adapter warmed up, without preparation, \
          read-back, metrics and files. Base: `{}`. RMSE, PSNR and SSIM are of sRGB values at the \
          scene's exposure, RMSE linear of radiance in W·m⁻²·sr⁻¹. Ranks are by RMSE; rows that are \
          closer than the noise floor share a rank (=). All metrics are in `table.csv`.",
