@@ -152,9 +152,8 @@ macro_rules! brdf {
                 let tangent = (v - n_v * normal)
                     .try_normalize()
                     .unwrap_or_else(|| normal.any_orthonormal_vector());
-                let local = |d: glam::$vec3| {
-                    [tangent.dot(d), normal.cross(tangent).dot(d), normal.dot(d)]
-                };
+                let local =
+                    |d: glam::$vec3| [tangent.dot(d), normal.cross(tangent).dot(d), normal.dot(d)];
                 measured.eval([tangent.dot(v), 0.0, n_v], local(l)).into()
             }
 

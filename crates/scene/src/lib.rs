@@ -29,6 +29,6 @@ pub use light::Light;
 pub use load::{SceneEntry, SceneKind, list, load};
 pub use lobe::Lobe;
 pub use material::{Material, Texture};
-pub use scene::{Scene, Triangle, Vertex};
 pub use measured::Measured;
+pub use scene::{Scene, Triangle, Vertex};
 pub use surface::SurfacePoint;

@@ -3,7 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use manylights_gpu::{
-    Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, VirtualLight, link,
+    Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, VirtualLight,
+    link,
 };
 
 use crate::Settings;

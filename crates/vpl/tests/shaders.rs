@@ -3,8 +3,10 @@
 use manylights_gpu::{Binding, Gpu, Reflectances};
 use manylights_vpl::{Settings, linked_shader};
 
-const LAMBERT: Reflectances = Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };
-const GLOSSY: Reflectances = Reflectances { specular: true, exact_fresnel: false, measured: Vec::new() };
+const LAMBERT: Reflectances =
+    Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };
+const GLOSSY: Reflectances =
+    Reflectances { specular: true, exact_fresnel: false, measured: Vec::new() };
 
 fn every_setting() -> Vec<Settings> {
     let options = [None, Some(1.0)];

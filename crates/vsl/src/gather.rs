@@ -2,7 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, link};
+use manylights_gpu::{
+    Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, link,
+};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{Settings, SphericalLight};

@@ -5,8 +5,10 @@ use manylights_vsl::{Sampling, Settings, linked_shader};
 
 const SAMPLINGS: [Sampling; 3] = [Sampling::Brdf, Sampling::Cone, Sampling::Both];
 
-const LAMBERT: Reflectances = Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };
-const GLOSSY: Reflectances = Reflectances { specular: true, exact_fresnel: false, measured: Vec::new() };
+const LAMBERT: Reflectances =
+    Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };
+const GLOSSY: Reflectances =
+    Reflectances { specular: true, exact_fresnel: false, measured: Vec::new() };
 
 fn settings(sampling: Sampling) -> Settings {
     Settings { lights: 1, samples: 9, sampling, radius: RadiusRule::FieldOfView, scale: 1.0 }

@@ -24,9 +24,8 @@ impl Merl {
     /// # Errors
     /// Where it is of another size or not finite.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, LoadError> {
-        let (sizes, numbers) = bytes
-            .split_at_checked(12)
-            .ok_or_else(|| broken("the head", "ends too soon"))?;
+        let (sizes, numbers) =
+            bytes.split_at_checked(12).ok_or_else(|| broken("the head", "ends too soon"))?;
         let (sizes, _) = sizes.as_chunks();
         if !sizes.iter().map(|&size| u32::from_le_bytes(size) as usize).eq(SIZE) {
             return Err(broken("the head", "is not 90 × 90 × 180"));
@@ -54,7 +53,8 @@ impl Merl {
         let flat = (h[0] * h[0] + h[1] * h[1]).sqrt();
         let length = (flat * flat + h[2] * h[2]).sqrt();
         // The axes of the frame about h: down along its meridian, and across.
-        let [c, s] = if flat > T::zero() { [h[0] / flat, h[1] / flat] } else { [T::one(), T::zero()] };
+        let [c, s] =
+            if flat > T::zero() { [h[0] / flat, h[1] / flat] } else { [T::one(), T::zero()] };
         let [sin_h, cos_h] = [flat / length, h[2] / length];
         let down = cos_h * (c * v[0] + s * v[1]) - sin_h * v[2];
         let across = c * v[1] - s * v[0];
@@ -79,7 +79,8 @@ impl Merl {
             let middle = if axis < 2 { middle.max(T::zero()).min(last) } else { middle };
             let low = middle.floor();
             let index = (low + T::count(SIZE[axis])).to_usize().unwrap_or(0) % SIZE[axis];
-            let next = if axis < 2 { (index + 1).min(SIZE[axis] - 1) } else { (index + 1) % SIZE[2] };
+            let next =
+                if axis < 2 { (index + 1).min(SIZE[axis] - 1) } else { (index + 1) % SIZE[2] };
             ([index, next], middle - low)
         };
         let ([h, d, p], mix) = {
@@ -91,7 +92,10 @@ impl Merl {
             let value = |h: usize, d: usize, p: usize| {
                 self.values[3 * ((h * SIZE[1] + d) * SIZE[2] + p) + channel].into()
             };
-            lerp(mix[0], h.map(|h| lerp(mix[1], d.map(|d| lerp(mix[2], p.map(|p| value(h, d, p)))))))
+            lerp(
+                mix[0],
+                h.map(|h| lerp(mix[1], d.map(|d| lerp(mix[2], p.map(|p| value(h, d, p)))))),
+            )
         })
     }
 

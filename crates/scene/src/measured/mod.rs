@@ -18,7 +18,7 @@ use self::estimate::Estimate;
 use self::merl::Merl;
 use self::real::Real;
 use self::rgl::Rgl;
-use crate::{Brdf, Lobe, LoadError};
+use crate::{Brdf, LoadError, Lobe};
 
 /// The first word of a table on the adapter: its kind.
 const RGL: u32 = 0;
@@ -85,7 +85,9 @@ impl Measured {
         let words = values.words();
         let estimate = match &values {
             Values::Rgl(rgl) => Estimate::new(&values, |theta| rgl.distribution(theta)),
-            Values::Merl(_) => Estimate::new(&values, |theta| estimate::backscatter(&values, theta)),
+            Values::Merl(_) => {
+                Estimate::new(&values, |theta| estimate::backscatter(&values, theta))
+            }
         };
         let mut tables = TABLES.write().unwrap_or_else(PoisonError::into_inner);
         if let Some(table) = tables.iter().find(|table| table.words == words) {

@@ -245,8 +245,8 @@ fn row(file: &TensorFile, name: &str) -> Result<Vec<f32>, LoadError> {
 /// Planes of three channels for each angle as triples, without negative ones.
 fn interleaved(planes: &[f32], points: usize) -> Vec<f32> {
     let slices = planes.chunks_exact(3 * points);
-    let triples = slices
-        .flat_map(|slice| (0..points).map(move |i| [0, 1, 2].map(|c| slice[c * points + i])));
+    let triples =
+        slices.flat_map(|slice| (0..points).map(move |i| [0, 1, 2].map(|c| slice[c * points + i])));
     triples.flatten().map(|value| value.max(0.0)).collect()
 }
 

@@ -33,10 +33,8 @@ struct Head<'a>(&'a [u8]);
 
 impl<'a> Head<'a> {
     fn take(&mut self, count: usize) -> Result<&'a [u8], LoadError> {
-        let (part, rest) = self
-            .0
-            .split_at_checked(count)
-            .ok_or_else(|| broken("the head", "ends too soon"))?;
+        let (part, rest) =
+            self.0.split_at_checked(count).ok_or_else(|| broken("the head", "ends too soon"))?;
         self.0 = rest;
         Ok(part)
     }
