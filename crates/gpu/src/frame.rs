@@ -2,7 +2,7 @@ use std::sync::{Arc, OnceLock};
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_scene::{Brdf, Camera, Scene};
+use manylights_scene::{Brdf, Camera, Lobe, Scene};
 
 use crate::raster::rasterise;
 use crate::scene_buffers::SceneBuffers;
@@ -19,7 +19,7 @@ pub struct SurfaceRecord {
     pub alpha: f32,
     /// Unit shading normal, on the viewer's side.
     pub normal: Vec3,
-    /// Specular reflectance at grazing incidence.
+    /// What the specular lobe is, see [`Lobe::slot`].
     pub f90: f32,
     /// Albedo of the Lambertian lobe.
     pub diffuse: Vec3,
@@ -37,7 +37,8 @@ impl SurfaceRecord {
 
     /// Its reflectance.
     pub fn brdf(&self) -> Brdf {
-        Brdf { diffuse: self.diffuse, f0: self.f0, f90: self.f90, alpha: self.alpha }
+        let Self { diffuse, f0, f90, alpha, .. } = *self;
+        Brdf { diffuse, f0, lobe: Lobe::from_slot(f90), alpha }
     }
 }
 

@@ -20,6 +20,7 @@ struct MaterialRecord {
     base_color: Vec3,
     /// Index of the texture, −1 for none.
     texture: i32,
+    /// Of the dielectric part, or of a reflectance given whole: f0 and [`manylights_scene::Lobe::slot`].
     dielectric_f0: Vec3,
     dielectric_f90: f32,
     metallic: f32,
@@ -63,7 +64,10 @@ impl SceneBuffers {
 
 impl MaterialRecord {
     fn new(material: &Material) -> Self {
-        let (dielectric_f0, dielectric_f90) = material.dielectric_fresnel();
+        let (dielectric_f0, dielectric_f90) = match &material.given {
+            Some(brdf) => (brdf.f0, brdf.lobe.slot()),
+            None => material.dielectric_fresnel(),
+        };
         Self {
             base_color: material.base_color,
             texture: material.base_color_texture.map_or(-1, |index| index as i32),

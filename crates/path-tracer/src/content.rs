@@ -1,6 +1,6 @@
 //! What a picture is made from, as a hash.
 
-use manylights_scene::{Camera, Light, Material, Scene};
+use manylights_scene::{Brdf, Camera, Light, Lobe, Material, Scene};
 use sha2::{Digest, Sha256};
 
 use crate::cache::hexadecimal;
@@ -21,6 +21,9 @@ pub(crate) fn content_digest(scene: &Scene, camera: &Camera) -> [u8; 32] {
     part(bytemuck::cast_slice(&scene.triangles));
     for material in &scene.materials {
         part(material_text(material).as_bytes());
+        if let Some(Brdf { lobe: Lobe::Measured(measured), .. }) = material.given {
+            part(bytemuck::cast_slice(measured.words()));
+        }
     }
     for texture in &scene.textures {
         part(&texture.width.to_le_bytes());
@@ -48,11 +51,16 @@ fn material_text(material: &Material) -> String {
         specular,
         specular_color,
         emission,
+        given,
     } = material;
-    format!(
+    let mut text = format!(
         "material {base_color:?} {base_color_texture:?} {metallic:?} {roughness:?} {ior:?} \
          {specular:?} {specular_color:?} {emission:?}"
-    )
+    );
+    if let Some(brdf) = given {
+        text += &format!(" {brdf:?}");
+    }
+    text
 }
 
 fn light_text(light: &Light) -> String {

@@ -29,7 +29,8 @@ pub(crate) struct Lobes<'a> {
 impl<'a> Lobes<'a> {
     #[inline]
     pub(crate) fn new(point: &'a SurfacePoint, to_viewer: Vec3) -> Self {
-        Self { point, to_viewer, specular: specular_share(point, to_viewer) }
+        let specular = point.brdf.specular_share(point.normal.dot(to_viewer));
+        Self { point, to_viewer, specular }
     }
 
     /// A direction for two uniform numbers; `None` where nothing is reflected into it.
@@ -107,22 +108,6 @@ impl<'a> Lobes<'a> {
         let masking = n_v + (a2 + (1.0 - a2) * n_v * n_v).sqrt();
         brdf.distribution(*normal, h) / (2.0 * masking)
     }
-}
-
-/// Share of the specular lobe in what is reflected towards the viewer, estimated by its Fresnel
-/// reflectance; zero where the viewer is below the horizon of the shading normal.
-fn specular_share(point: &SurfacePoint, to_viewer: Vec3) -> f32 {
-    let SurfacePoint { normal, brdf, .. } = point;
-    if !brdf.has_specular() {
-        return 0.0;
-    }
-    let n_v = normal.dot(to_viewer);
-    if n_v <= 0.0 {
-        return 0.0;
-    }
-    let specular = brdf.fresnel(n_v).max_element();
-    let diffuse = brdf.diffuse.max_element() * brdf.transmission(n_v);
-    specular / (specular + diffuse)
 }
 
 /// A direction with density cos/π about `normal`.

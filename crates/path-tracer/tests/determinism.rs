@@ -3,7 +3,11 @@
 use glam::Vec3;
 use manylights_method::{Frame, Method, Parameters, Processor, Transport, Visibility};
 use manylights_path_tracer::{Error, PathTracer, Reference, SLICE, Settings, content_hash, render};
-use manylights_scene::{Light, Scene, load};
+use manylights_scene::presets::PRESETS;
+use manylights_scene::{Brdf, Light, Measured, Scene, load};
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;
 
 fn settings(transport: &str, seed: u64) -> Settings {
     let transport = transport.parse().expect("a transport");
@@ -133,6 +137,27 @@ fn the_content_hash_sees_what_matters() {
         change(&mut changed);
         assert_ne!(hash(&changed), original, "change {index}");
     }
+    let given = |brdf: Brdf| {
+        let mut changed = scene.clone();
+        changed.materials[0].given = Some(brdf);
+        hash(&changed)
+    };
+    let other = tensor::material(|_, _| 1.0, |_| 1.0, |_| 1.0, |_, _, _| 0.25);
+    // As many numbers as the first measurement, others.
+    let measured = [tensor::satin(), tensor::file(&other)].map(|bytes| {
+        let path = tempfile::tempdir().expect("a temporary folder").keep().join("a.bsdf");
+        std::fs::write(&path, bytes).expect("can write");
+        let brdf = Measured::load(&path).expect("valid").brdf();
+        std::fs::remove_dir_all(path.parent().expect("has one")).expect("can be removed");
+        brdf
+    });
+    // The samplers' lobes follow the table; here the table alone differs.
+    let lobes_of_first = Brdf { lobe: measured[1].lobe, ..measured[0] };
+    let preset = PRESETS[0].brdf();
+    let hashes = [original.clone(), given(preset), given(measured[0]), given(lobes_of_first)];
+    let distinct: std::collections::HashSet<_> = hashes.iter().collect();
+    assert_eq!(distinct.len(), hashes.len());
+
     let mut renamed = scene.clone();
     renamed.name.push('x');
     renamed.exposure *= 2.0;

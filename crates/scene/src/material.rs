@@ -1,10 +1,11 @@
-//! Materials: glTF's metallic-roughness model mapped to [`Brdf`], and base-colour textures.
+//! Materials: glTF's metallic-roughness model mapped to [`Brdf`], reflectances given whole, and
+//! base-colour textures.
 
 use std::sync::LazyLock;
 
 use glam::{Vec2, Vec3};
 
-use crate::Brdf;
+use crate::{Brdf, Lobe};
 
 /// Smallest roughness: narrower lobes are mirrors, which no method here can gather.
 pub const MIN_ROUGHNESS: f32 = 0.03;
@@ -30,6 +31,9 @@ pub struct Material {
     pub specular_color: Vec3,
     /// Emitted radiance of the front side, W·m⁻²·sr⁻¹.
     pub emission: Vec3,
+    /// A reflectance given whole ([`crate::presets`]): the factors above but the emission do not
+    /// count then.
+    pub given: Option<Brdf>,
 }
 
 impl Material {
@@ -45,6 +49,18 @@ impl Material {
             specular: 0.0,
             specular_color: Vec3::ONE,
             emission: Vec3::ZERO,
+            given: None,
+        }
+    }
+
+    /// The same material with another reflectance, given whole.
+    pub fn with_brdf(self, brdf: Brdf) -> Self {
+        Self {
+            base_color: brdf.diffuse,
+            base_color_texture: None,
+            metallic: 0.0,
+            given: Some(brdf),
+            ..self
         }
     }
 
@@ -60,7 +76,10 @@ impl Material {
 
     /// Whether the specular lobe exists.
     pub fn has_specular(&self) -> bool {
-        self.metallic > 0.0 || self.specular > 0.0
+        match &self.given {
+            Some(brdf) => brdf.has_specular(),
+            None => self.metallic > 0.0 || self.specular > 0.0,
+        }
     }
 
     /// Base colour at a texture coordinate.
@@ -73,12 +92,15 @@ impl Material {
 
     /// Reflectance for a base colour (glTF 2.0 appendix B, `KHR_materials_ior`, `_specular`).
     pub fn brdf(&self, base_color: Vec3) -> Brdf {
+        if let Some(brdf) = self.given {
+            return brdf;
+        }
         let (f0, f90) = self.dielectric_fresnel();
         let roughness = self.roughness.clamp(MIN_ROUGHNESS, 1.0);
         Brdf {
             diffuse: base_color * (1.0 - self.metallic),
             f0: f0.lerp(base_color, self.metallic),
-            f90: f90 + (1.0 - f90) * self.metallic,
+            lobe: Lobe::Schlick { f90: f90 + (1.0 - f90) * self.metallic },
             alpha: roughness * roughness,
         }
     }

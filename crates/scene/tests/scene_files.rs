@@ -1,11 +1,14 @@
 //! Scene files: what they add, and how wrong ones are refused.
 
 mod common;
+#[path = "common/tensor.rs"]
+mod tensor;
 
 use std::path::PathBuf;
 
 use glam::{Vec3, vec3};
-use manylights_scene::{Light, LoadError, Scene, load};
+use manylights_scene::presets::PRESETS;
+use manylights_scene::{Light, LoadError, Lobe, Scene, load};
 use tempfile::TempDir;
 
 fn write(text: &str) -> (TempDir, PathBuf) {
@@ -74,6 +77,32 @@ fn a_scene_file_adds_and_overrides() {
 }
 
 #[test]
+fn presets_replace_the_factors_but_not_the_emission() {
+    let text = format!("{HEAD}[material.white]\npreset = \"teflon\"\nemission = [1, 2, 3]");
+    let scene = load_text(&text).expect("valid");
+    let white = scene.materials.iter().find(|material| material.name == "white").expect("is one");
+    let teflon = PRESETS.iter().find(|preset| preset.name == "teflon").expect("is one").brdf();
+    assert_eq!(white.brdf(Vec3::ONE), teflon);
+    assert_eq!(white.emission, vec3(1.0, 2.0, 3.0));
+    assert!(scene.has_specular());
+}
+
+#[test]
+fn measurements_lie_beside_the_scene_file_or_among_the_assets() {
+    let text = |file: &str| format!("{HEAD}[material.white]\nmeasured = \"{file}\"");
+    let (folder, path) = write(&text("satin.bsdf"));
+    std::fs::write(folder.path().join("satin.bsdf"), tensor::satin()).expect("can write");
+    let scene = load(path.to_str().expect("UTF-8"), None).expect("valid");
+    let white = scene.materials.iter().find(|material| material.name == "white").expect("is one");
+    let brdf = white.brdf(Vec3::ONE);
+    assert!(matches!(brdf.lobe, Lobe::Measured(_)) && scene.has_specular());
+
+    let (_folder, path) = write(&text("asset:satin.bsdf"));
+    let scene = load(path.to_str().expect("UTF-8"), Some(folder.path())).expect("valid");
+    assert!(scene.materials.iter().any(|material| material.brdf(Vec3::ONE) == brdf));
+}
+
+#[test]
 fn lights_of_the_source_stay_unless_told_otherwise() {
     let light = "light = [{ kind = \"point\", position = [0, 1, 0], intensity = [1, 1, 1] }]";
     assert_eq!(load_text(&format!("{HEAD}{light}")).expect("valid").lights.len(), 2);
@@ -123,6 +152,26 @@ fn wrong_files_are_refused_with_a_line() {
         ("outer = 90", "to 89", spot("target = [0, 0, 1], inner = 3, outer = 90")),
         ("roughness = 1.5", "to 1", "[material.white]\nroughness = 1.5".to_owned()),
         ("emission is negative", "from 0", "[material.white]\nemission = [1, -1, 0]".to_owned()),
+        (
+            "unknown preset `gold-pant`",
+            "did you mean `gold-paint`?",
+            "[material.white]\npreset = \"gold-pant\"".to_owned(),
+        ),
+        (
+            "nowhere.bsdf: cannot be read",
+            "check the path",
+            "[material.white]\nmeasured = \"nowhere.bsdf\"".to_owned(),
+        ),
+        (
+            "preset and measured exclude",
+            "keep one of them",
+            "[material.white]\npreset = \"teflon\"\nmeasured = \"a.bsdf\"".to_owned(),
+        ),
+        (
+            "preset and ior exclude each other",
+            "keep one of them",
+            "[material.white]\npreset = \"teflon\"\nior = 1.3".to_owned(),
+        ),
         ("hall.toml:4: ", "correct", "\nexposure = = 2".to_owned()),
     ];
     for (problem, remedy, text) in cases {

@@ -3,7 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use manylights_gpu::{
-    Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, VirtualLight, link,
+    Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, VirtualLight,
+    link,
 };
 
 use crate::Settings;
@@ -16,23 +17,24 @@ const GLOSSY_CAPACITY: usize = 480;
 /// 64 lanes of four pixels.
 const PIXELS_A_GROUP: u32 = 256;
 
-/// The WGSL of the kernel for receivers and lights of the given lobes.
+/// The WGSL of the kernel for receivers of the given kinds, and lights that are Lambertian or not.
 ///
 /// # Errors
 /// Where the shader does not link.
 pub fn linked_shader(
-    glossy_receivers: bool,
+    kinds: &Reflectances,
     glossy_lights: bool,
     traced: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
-        ("glossy_receivers", glossy_receivers),
+        ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("clamped", settings.clamp.is_some()),
         ("attenuated", settings.radius.is_some()),
         ("traced", traced),
     ];
+    let features = [&features[..], &kinds.features()].concat();
     link("gather", include_str!("shaders/gather.wesl"), &[], &features)
 }
 
@@ -66,7 +68,7 @@ pub(crate) fn batches(
     )
 }
 
-/// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
+/// For `pixels` surfaces of the given kinds, seen from `camera`.
 ///
 /// # Errors
 /// Where a shader does not link or the adapter refuses.
@@ -74,7 +76,7 @@ pub(crate) fn gather(
     gpu: &Gpu,
     pixels: u32,
     camera: Vec3,
-    specular: bool,
+    kinds: &Reflectances,
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
@@ -88,9 +90,10 @@ pub(crate) fn gather(
     };
     let traced = shadows.is_some();
     let wgsl = [
-        linked_shader(specular, false, traced, settings)?,
-        linked_shader(specular, specular, traced, settings)?,
+        linked_shader(kinds, false, traced, settings)?,
+        linked_shader(kinds, kinds.specular, traced, settings)?,
     ];
     let wgsl = wgsl.each_ref().map(String::as_str);
-    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, Vec::new(), shadows)
+    let tables = kinds.tables(gpu)?;
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, tables, shadows)
 }

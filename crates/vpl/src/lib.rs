@@ -20,7 +20,7 @@ pub mod oracle;
 mod params;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, LightGather, SurfaceRecord, VirtualLight, distribute};
+use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord, VirtualLight, distribute};
 use manylights_method::{
     Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
     many_light_frame,
@@ -78,8 +78,8 @@ impl Method for Vpl {
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
-        let specular = scene.has_specular();
-        let gather = gather::gather(gpu, pixels, camera.position, specular, &settings, shadows)?;
+        let kinds = Reflectances::of_scene(scene);
+        let gather = gather::gather(gpu, pixels, camera.position, &kinds, &settings, shadows)?;
         let pairs_a_batch = u64::from(pixels) * LAMBERT_CAPACITY as u64;
         let batches_a_step = (PAIRS_A_STEP / pairs_a_batch) as usize;
         let place = move |gather: &LightGather| {
@@ -102,9 +102,9 @@ pub fn gather(
     lights: &[VirtualLight],
     settings: &Settings,
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
-    let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
-        || lights.iter().any(|light| light.brdf.has_specular());
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings, None)?;
+    let receivers = surfaces.iter().map(SurfaceRecord::brdf);
+    let kinds = Reflectances::of(receivers.chain(lights.iter().map(|light| light.brdf)));
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &kinds, settings, None)?;
     let batches = gather::batches(&gather, lights)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()

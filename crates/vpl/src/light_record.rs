@@ -66,7 +66,7 @@ impl GlossyLight {
             position: light.position,
             alpha2,
             geometric_normal: light.geometric_normal,
-            f90: brdf.f90,
+            f90: brdf.lobe.light_slot(),
             intensity: light.flux * brdf.diffuse * (FRAC_1_PI * transmission),
             view_n,
             normal: light.normal,

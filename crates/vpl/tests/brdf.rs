@@ -4,9 +4,12 @@ use std::sync::LazyLock;
 
 use glam::{DVec3, Vec3};
 use manylights_gpu::{Gpu, SurfaceRecord, VirtualLight};
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Lobe, Measured};
 use manylights_vpl::{Settings, gather, oracle};
 use proptest::prelude::*;
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;
 
 static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
@@ -18,7 +21,7 @@ fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
         position,
         alpha: brdf.alpha,
         normal,
-        f90: brdf.f90,
+        f90: brdf.lobe.slot(),
         diffuse: brdf.diffuse,
         triangle: 0,
         f0: brdf.f0,
@@ -41,14 +44,18 @@ fn direction() -> impl Strategy<Value = Vec3> {
 /// f0 starts at 0.02, below all real dielectrics: with f0 = 0 the lobe is Schlick's (1 − cos)⁵ alone,
 /// which keeps no digits where it vanishes.
 fn material() -> impl Strategy<Value = Brdf> {
-    (0.0_f32..1.0, 0.02_f32..1.0, 0.1_f32..1.0, 0.1_f32..1.0).prop_map(
-        |(diffuse, f0, f90, roughness)| Brdf {
-            diffuse: Vec3::splat(diffuse),
-            f0: Vec3::splat(f0),
-            f90: f90.max(f0),
-            alpha: roughness * roughness,
-        },
-    )
+    let lobe = prop_oneof![
+        (0.1_f32..1.0).prop_map(|f90| Lobe::Schlick { f90 }),
+        (1.05_f32..4.1).prop_map(|index| Lobe::Dielectric { index }),
+    ];
+    (0.0_f32..1.0, 0.02_f32..1.0, lobe, 0.1_f32..1.0).prop_map(|(diffuse, f0, lobe, roughness)| {
+        let lobe = match lobe {
+            Lobe::Schlick { f90 } => Lobe::Schlick { f90: f90.max(f0) },
+            exact => exact,
+        };
+        let [diffuse, f0] = [diffuse, f0].map(Vec3::splat);
+        Brdf { diffuse, f0, lobe, alpha: roughness * roughness }
+    })
 }
 
 /// Relative to the oracle, for each pair of one light and one of many surfaces.
@@ -56,13 +63,32 @@ fn material() -> impl Strategy<Value = Brdf> {
 /// The bound is 1e-5 for lobes that do not amplify rounding: a direction's error of 1e-7 rad changes
 /// D(h) by 4e-7/α, so narrower lobes are allowed 1e-6/α.
 fn check(surfaces: &[SurfaceRecord], camera: Vec3, light: &VirtualLight, narrowest: f32) {
+    let bound = f64::from((1e-6 / narrowest).max(1e-5));
+    for (pixel, truth) in rendered(surfaces, camera, light) {
+        let error = (pixel - truth).abs().max_element();
+        assert!(error <= bound * truth.max_element(), "{pixel} is {truth} off by {error:e}");
+    }
+}
+
+/// What the adapter and the oracle make of each surface.
+fn rendered(surfaces: &[SurfaceRecord], camera: Vec3, light: &VirtualLight) -> Vec<(DVec3, DVec3)> {
     let lights = [*light];
     let pixels = gather(&GPU, surfaces, camera, &lights, &SETTINGS).expect("a gather");
-    for (surface, pixel) in surfaces.iter().zip(pixels) {
-        let truth = oracle::radiance(surface, camera.as_dvec3(), &lights, &SETTINGS);
-        let error = (Vec3::from(pixel).as_dvec3() - truth).abs().max_element();
-        let bound = f64::from((1e-6 / narrowest).max(1e-5));
-        assert!(error <= bound * truth.max_element(), "{pixel:?} is {truth} off by {error:e}");
+    let truth = |surface| oracle::radiance(surface, camera.as_dvec3(), &lights, &SETTINGS);
+    let pixels = pixels.into_iter().map(|pixel| Vec3::from(pixel).as_dvec3());
+    pixels.zip(surfaces.iter().map(truth)).collect()
+}
+
+/// For tables: a pixel is off by `slope` times 1e-7 of itself, the error of an angle, and where a lobe
+/// ends within a cell of the table, and digits with it, by no more than 1e-6 of the brightest.
+fn check_table(surfaces: &[SurfaceRecord], camera: Vec3, light: &VirtualLight, slope: f64) {
+    let pairs = rendered(surfaces, camera, light);
+    let peak = pairs.iter().map(|(_, truth)| truth.max_element()).fold(0.0, f64::max);
+    assert!(peak > 0.0);
+    for (pixel, truth) in pairs {
+        let error = (pixel - truth).abs().max_element();
+        let bound = 1e-7 * slope * truth.max_element() + 1e-6 * peak;
+        assert!(error <= bound, "{pixel} is {truth} off by {error:e}");
     }
 }
 
@@ -112,6 +138,80 @@ proptest! {
     }
 }
 
+fn white_metal(alpha: f32) -> Brdf {
+    Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, lobe: Lobe::Schlick { f90: 1.0 }, alpha }
+}
+
+/// The frames of receivers and lights, as the properties above draw them; `slope` is the largest
+/// relative change of the table over an angle.
+fn measured_agrees(brdf: Brdf, slope: f64) {
+    let golden = std::f32::consts::TAU * 0.618_034;
+    let directions: Vec<_> = (0..2048)
+        .map(|index| {
+            let z = (index as f32 + 0.5) / 1024.0 - 1.0;
+            let (r, phi) = ((1.0 - z * z).sqrt(), index as f32 * golden % 6.3);
+            Vec3::new(r * phi.cos(), z, r * phi.sin())
+        })
+        .collect();
+    let camera = Vec3::new(0.3, 4.0, 0.2);
+    // Normals wander against the places.
+    let frames = directions.iter().zip(directions.iter().cycle().skip(701).step_by(7));
+    let surfaces: Vec<_> = frames
+        .filter(|(place, normal)| {
+            let to_camera = (camera - **place).normalize();
+            well_above(place.y)
+                && well_above(normal.dot(-**place))
+                && well_above(normal.dot(to_camera))
+        })
+        .map(|(&place, &normal)| surface(place, normal, brdf))
+        .collect();
+    assert!(surfaces.len() > 150);
+    let lambert = light(Vec3::ZERO, Vec3::Y, Vec3::Y, Brdf::lambert(Vec3::ONE));
+    check_table(&surfaces, camera, &lambert, slope);
+
+    let above = directions.iter().filter(|place| well_above(place.y));
+    let surfaces: Vec<_> =
+        above.map(|&place| surface(place, -place, Brdf::lambert(Vec3::ONE))).collect();
+    for incoming in [Vec3::new(0.1, 1.0, 0.2), Vec3::new(-1.0, 0.4, 0.3)] {
+        let light = light(Vec3::ZERO, Vec3::Y, incoming.normalize(), brdf);
+        check_table(&surfaces, camera, &light, slope);
+    }
+}
+
+#[test]
+fn measurements_agree_with_the_oracle() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("satin.bsdf");
+    std::fs::write(&path, tensor::satin()).expect("can write");
+    measured_agrees(Measured::load(&path).expect("valid").brdf(), 100.0);
+}
+
+/// 128 columns over √(2θ/π), of which D may change by its half in one, some more in its tail.
+#[test]
+#[ignore = "needs MANYLIGHTS_ASSETS"]
+fn real_measurements_agree_with_the_oracle() {
+    let folder = std::env::var_os("MANYLIGHTS_ASSETS").expect("MANYLIGHTS_ASSETS is set");
+    for name in ["paper_white", "vch_golden_yellow"] {
+        let file = format!("brdf/rgl/{name}_rgb.bsdf");
+        let measured = Measured::load(&std::path::Path::new(&folder).join(file));
+        measured_agrees(measured.expect("a measurement").brdf(), 1000.0);
+    }
+}
+
+/// 180 cells over the azimuth, whose values differ by less than a hundredth here.
+#[test]
+fn merl_tables_agree_with_the_oracle() {
+    let value = |index: usize| 400.0 + 30.0 * ((index % 180) as f64 / 9.0).sin();
+    let rows = (0..90 * 90).map(|row| 20.0 * (f64::from(row % 90) / 20.0).cos());
+    let plane: Vec<f64> = rows.flat_map(|row| (0..180).map(move |p| row + value(p))).collect();
+    let mut bytes: Vec<u8> = [90_u32, 90, 180].iter().flat_map(|n| n.to_le_bytes()).collect();
+    bytes.extend([&plane, &plane, &plane].into_iter().flatten().flat_map(|x| x.to_le_bytes()));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("waves.binary");
+    std::fs::write(&path, bytes).expect("can write");
+    measured_agrees(Measured::load(&path).expect("valid").brdf(), 100.0);
+}
+
 /// Albedo of a perfectly reflecting GGX surface seen at `view`, by midpoint quadrature in f64.
 fn albedo(brdf: &Brdf, view: DVec3) -> f64 {
     let (rings, sectors) = (2000, 1000);
@@ -153,8 +253,7 @@ fn furnace(brdf: &Brdf, view: Vec3) -> f32 {
 fn white_furnace_in_wgsl_loses_what_single_scattering_loses() {
     for roughness in [0.5_f32, 0.8, 1.0] {
         for cosine in [0.3_f32, 0.7, 1.0] {
-            let brdf =
-                Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, f90: 1.0, alpha: roughness * roughness };
+            let brdf = white_metal(roughness * roughness);
             let view = Vec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0);
             let truth = albedo(&brdf, view.as_dvec3());
             let measured = f64::from(furnace(&brdf, view));
@@ -170,7 +269,7 @@ fn white_furnace_in_wgsl_loses_what_single_scattering_loses() {
 fn the_quadrature_knows_the_closed_form() {
     // α = 1, f0 = 1, normal incidence: D = 1/π, V = 1/(2(1 + μ)), so the albedo is
     // ∫ μ/(1 + μ) dμ over [0, 1] = 1 − ln 2.
-    let brdf = Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, f90: 1.0, alpha: 1.0 };
+    let brdf = white_metal(1.0);
     let closed = 1.0 - std::f64::consts::LN_2;
     assert!((albedo(&brdf, DVec3::Y) - closed).abs() < 1e-6);
 }

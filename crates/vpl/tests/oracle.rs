@@ -30,7 +30,7 @@ fn lambertian_scene() {
 
 #[test]
 fn glossy_scenes() {
-    for scene in ["cornell-glossy", "atrium", "trio"] {
+    for scene in ["cornell-glossy", "atrium", "trio", "../../scenes/trio-merl.toml"] {
         assert!(worst(scene, &PLAIN) < 1e-5, "{scene}");
     }
 }

@@ -1,7 +1,16 @@
 //! What the linked WGSL holds.
 
-use manylights_gpu::{Binding, Gpu};
+use manylights_gpu::{Binding, Gpu, Reflectances};
+use manylights_scene::Measured;
 use manylights_vpl::{Settings, linked_shader};
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;
+
+const LAMBERT: Reflectances =
+    Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };
+const GLOSSY: Reflectances =
+    Reflectances { specular: true, exact_fresnel: false, measured: Vec::new() };
 
 fn every_setting() -> Vec<Settings> {
     let options = [None, Some(1.0)];
@@ -14,18 +23,19 @@ fn every_setting() -> Vec<Settings> {
 #[test]
 fn a_lambertian_scene_links_no_ggx() {
     for settings in every_setting() {
-        let wgsl = linked_shader(false, false, false, &settings).expect("links");
+        let wgsl = linked_shader(&LAMBERT, false, false, &settings).expect("links");
         for word in ["alpha2", "glossy", "schlick", "specular", "smith"] {
             assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
         }
     }
-    let glossy = linked_shader(true, true, false, &every_setting()[0]).expect("links");
+    let glossy = linked_shader(&GLOSSY, true, false, &every_setting()[0]).expect("links");
     assert!(glossy.contains("schlick") && glossy.contains("smith_view"));
+    assert!(!glossy.contains("relative_fresnel") && !glossy.contains("measured"));
 }
 
 #[test]
 fn options_that_are_off_are_not_in_the_shader() {
-    let plain = linked_shader(true, true, false, &every_setting()[0]).expect("links");
+    let plain = linked_shader(&GLOSSY, true, false, &every_setting()[0]).expect("links");
     for word in ["attenuation", "view.clamp", "hidden"] {
         assert!(!plain.contains(word), "`{word}` in:\n{plain}");
     }
@@ -34,12 +44,27 @@ fn options_that_are_off_are_not_in_the_shader() {
 #[test]
 fn every_permutation_is_valid() {
     let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
-    let bindings =
-        [Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut, Binding::Storage];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("satin.bsdf");
+    std::fs::write(&path, tensor::satin()).expect("can write");
+    let measured = vec![Measured::load(&path).expect("valid")];
+    let exact = Reflectances { exact_fresnel: true, ..GLOSSY };
+    let all = Reflectances { measured, ..exact.clone() };
     for settings in every_setting() {
-        for (receivers, lights) in [(false, false), (true, false), (true, true)] {
+        for (kinds, lights) in [
+            (&LAMBERT, false),
+            (&GLOSSY, false),
+            (&GLOSSY, true),
+            (&exact, false),
+            (&exact, true),
+            (&all, false),
+            (&all, true),
+        ] {
+            let mut bindings =
+                vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
+            bindings.resize(5 + kinds.tables(&gpu).expect("fits").len(), Binding::Storage);
             for traced in [false, true] {
-                let wgsl = linked_shader(receivers, lights, traced, &settings).expect("links");
+                let wgsl = linked_shader(kinds, lights, traced, &settings).expect("links");
                 gpu.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
             }
         }

@@ -2,7 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, link};
+use manylights_gpu::{
+    Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, link,
+};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{Settings, SphericalLight};
@@ -13,23 +15,24 @@ pub(crate) const CAPACITY: usize = 128;
 
 const PIXELS_A_GROUP: u32 = 64;
 
-/// The WGSL of the kernel for receivers and lights of the given lobes.
+/// The WGSL of the kernel for receivers of the given kinds, and lights that are Lambertian or not.
 ///
 /// # Errors
 /// Where the shader does not link.
 pub fn linked_shader(
-    glossy_receivers: bool,
+    kinds: &Reflectances,
     glossy_lights: bool,
     traced: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
-        ("glossy_receivers", glossy_receivers),
+        ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("brdf_samples", settings.sampling.has_brdf()),
         ("cone_samples", settings.sampling.has_cone()),
         ("traced", traced),
     ];
+    let features = [&features[..], &kinds.features()].concat();
     let modules = [
         ("pair", include_str!("shaders/pair.wesl")),
         ("sampling", include_str!("shaders/sampling.wesl")),
@@ -71,7 +74,7 @@ pub(crate) fn batches(
     )
 }
 
-/// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
+/// For `pixels` surfaces of the given kinds, seen from `camera`.
 ///
 /// # Errors
 /// Where a shader does not link or the adapter refuses.
@@ -79,16 +82,17 @@ pub(crate) fn gather(
     gpu: &Gpu,
     pixels: u32,
     camera: Vec3,
-    specular: bool,
+    kinds: &Reflectances,
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     let view = View { camera, pixels, samples: settings.samples, padding: [0; 3] };
     let traced = shadows.is_some();
     let wgsl = [
-        linked_shader(specular, false, traced, settings)?,
-        linked_shader(specular, specular, traced, settings)?,
+        linked_shader(kinds, false, traced, settings)?,
+        linked_shader(kinds, kinds.specular, traced, settings)?,
     ];
     let wgsl = wgsl.each_ref().map(String::as_str);
-    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, Vec::new(), shadows)
+    let tables = kinds.tables(gpu)?;
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, tables, shadows)
 }

@@ -47,7 +47,7 @@ mod params;
 mod spherical_light;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
+use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
 use manylights_method::{
     Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
     many_light_frame,
@@ -106,8 +106,8 @@ impl Method for Vsl {
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
-        let specular = scene.has_specular();
-        let gather = gather::gather(gpu, pixels, camera.position, specular, &settings, shadows)?;
+        let kinds = Reflectances::of_scene(scene);
+        let gather = gather::gather(gpu, pixels, camera.position, &kinds, &settings, shadows)?;
         let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
         let batches_a_step = (DIRECTIONS_A_STEP / directions_a_batch) as usize;
         let place = move |gather: &LightGather| {
@@ -132,9 +132,9 @@ pub fn gather(
     settings: &Settings,
     seed: u64,
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
-    let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
-        || lights.iter().any(|sphere| sphere.light.brdf.has_specular());
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings, None)?;
+    let receivers = surfaces.iter().map(SurfaceRecord::brdf);
+    let kinds = Reflectances::of(receivers.chain(lights.iter().map(|sphere| sphere.light.brdf)));
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &kinds, settings, None)?;
     let batches = gather::batches(&gather, lights, seed)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()

@@ -73,7 +73,7 @@ impl GlossyLight {
             bitangent: light.normal.cross(tangent),
             smith_view: (base.alpha2 + (1.0 - base.alpha2) * view_n * view_n).sqrt(),
             f0: brdf.f0,
-            f90: brdf.f90,
+            f90: brdf.lobe.light_slot(),
             flux: light.flux,
             padding: 0.0,
         }

@@ -64,9 +64,7 @@ impl Receiver {
         let frame = DMat3::from_cols(tangent, normal.cross(tangent), normal);
         let view = frame.transpose() * to_camera;
         let brdf = DBrdf::from(surface.brdf());
-        let specular = 1.0 - brdf.transmission(view.z);
-        let diffuse = brdf.diffuse.max_element() * brdf.transmission(view.z);
-        let share = if specular > 0.0 { specular / (specular + diffuse) } else { 0.0 };
+        let share = brdf.specular_share(view.z);
         Self { position, frame, view, brdf, share }
     }
 

@@ -1,6 +1,8 @@
 //! The adapter's gather against the f64 oracle, with the same samples.
 
 mod common;
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;
 
 use common::{Picture, SETTINGS, render};
 use glam::{DVec3, Vec3};
@@ -35,10 +37,13 @@ fn difference(scene: &str, settings: &Settings) -> Difference {
     difference
 }
 
+/// Materials with the exact Fresnel term.
+const PRESETS: &str = "../../scenes/trio-merl.toml";
+
 /// Samples of the cone move with rounding but never leave it: as tight as for point lights.
 #[test]
 fn cone_samples() {
-    for scene in ["cornell", "cornell-glossy", "atrium", "trio"] {
+    for scene in ["cornell", "cornell-glossy", "atrium", "trio", PRESETS] {
         let settings = Settings { sampling: Sampling::Cone, ..SETTINGS };
         assert!(difference(scene, &settings).worst < 1e-5, "{scene}");
     }
@@ -48,7 +53,7 @@ fn cone_samples() {
 /// samples of single lights then differ, nothing more.
 #[test]
 fn lobe_samples() {
-    for scene in ["cornell", "cornell-glossy", "atrium", "trio"] {
+    for scene in ["cornell", "cornell-glossy", "atrium", "trio", PRESETS] {
         for sampling in [Sampling::Brdf, Sampling::Both] {
             let Difference { worst, odd, energy } =
                 difference(scene, &Settings { sampling, ..SETTINGS });
@@ -56,6 +61,24 @@ fn lobe_samples() {
             assert!(worst < 0.01 && energy < 1e-5, "{scene} {sampling:?}: {worst:e} {energy:e}");
         }
     }
+}
+
+/// A measured material: tables are continuous but not smooth.
+#[test]
+fn measurements() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scene = folder.path().join("trio.toml");
+    std::fs::write(folder.path().join("satin.bsdf"), tensor::satin()).expect("can write");
+    let materials = ["floor", "satin"]
+        .map(|name| format!("[material.{name}]\nmeasured = \"satin.bsdf\"\n"))
+        .concat();
+    let text = format!("about = \"a test\"\nsource = \"builtin:trio\"\n{materials}");
+    std::fs::write(&scene, text).expect("can write");
+    let scene = scene.to_str().expect("UTF-8");
+    let cone = Settings { sampling: Sampling::Cone, ..SETTINGS };
+    assert!(difference(scene, &cone).worst < 1e-5);
+    let Difference { worst, odd, energy } = difference(scene, &SETTINGS);
+    assert!(odd < 0.01 && worst < 0.01 && energy < 1e-5, "{odd} {worst:e} {energy:e}");
 }
 
 #[test]

@@ -1,7 +1,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec3;
-use manylights_scene::{Brdf, DBrdf, Material};
+use manylights_scene::presets::PRESETS;
+use manylights_scene::{Brdf, DBrdf, Material, Measured};
 
 use super::*;
 use crate::sampler::{SLICE, Sampler};
@@ -20,7 +21,7 @@ fn point(brdf: Brdf) -> SurfacePoint {
     }
 }
 
-fn brdfs() -> [Brdf; 5] {
+fn brdfs() -> [Brdf; 8] {
     let color = Vec3::new(0.9, 0.5, 0.2);
     [
         Brdf::lambert(color),
@@ -28,7 +29,24 @@ fn brdfs() -> [Brdf; 5] {
         Material::glossy("b", color, 0.25).brdf(color),
         Material::metal("c", color, 1.0).brdf(color),
         Material::metal("d", color, 0.35).brdf(color),
+        preset("gold-paint"),
+        preset("red-fabric2"),
+        measured(),
     ]
+}
+
+#[path = "../../../scene/tests/common/tensor.rs"]
+mod tensor;
+
+fn measured() -> Brdf {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("satin.bsdf");
+    std::fs::write(&path, tensor::satin()).expect("can write");
+    Measured::load(&path).expect("valid").brdf()
+}
+
+fn preset(name: &str) -> Brdf {
+    PRESETS.iter().find(|preset| preset.name == name).expect("is one").brdf()
 }
 
 /// A unit direction at an angle from the normal.

@@ -78,6 +78,7 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
         specular: specular.as_ref().map_or(1.0, |specular| specular.specular_factor()),
         specular_color: specular.map_or(Vec3::ONE, |s| Vec3::from(s.specular_color_factor())),
         emission,
+        given: None,
     };
     let unit = 0.0..=1.0;
     let in_range = [

@@ -10,7 +10,7 @@ use serde::Deserialize;
 use self::spec::{CameraSpec, LightSpec, MaterialSpec, number};
 use crate::builtin::BUILTINS;
 use crate::error::suggestion;
-use crate::{LoadError, Scene, gltf};
+use crate::{LoadError, Material, Scene, gltf};
 
 /// A scene file as it is written.
 #[derive(Deserialize)]
@@ -59,7 +59,11 @@ pub(crate) fn load(path: &Path, assets: Option<&Path>) -> Result<Scene, LoadErro
     let cameras: Result<Vec<_>, _> = file.camera.iter().map(|spec| spec.camera(&place)).collect();
     scene.cameras.splice(0..0, cameras?);
     for (name, spec) in &file.material {
-        override_material(&mut scene, &place, name, spec)?;
+        let found = named(&mut scene, &place, name)?;
+        let place = format!("{place}: material `{name}`");
+        for material in found {
+            spec.apply(material, &place, |name| located(path, name, assets))?;
+        }
     }
     Ok(scene)
 }
@@ -99,9 +103,14 @@ fn source(file: &Path, source: &str, assets: Option<&Path>) -> Result<Scene, Loa
             None => Err(LoadError::unknown(file.display(), "built-in scene", name, names)),
         };
     }
-    match source.strip_prefix("asset:") {
-        Some(asset) => gltf::load(&asset_path(file, asset, assets)?),
-        None => gltf::load(&file.parent().unwrap_or(Path::new("")).join(source)),
+    gltf::load(&located(file, source, assets)?)
+}
+
+/// The path of a file that `file` names: `asset:PATH`, or relative to it.
+fn located(file: &Path, name: &str, assets: Option<&Path>) -> Result<PathBuf, LoadError> {
+    match name.strip_prefix("asset:") {
+        Some(asset) => asset_path(file, asset, assets),
+        None => Ok(file.parent().unwrap_or(Path::new("")).join(name)),
     }
 }
 
@@ -120,20 +129,15 @@ fn asset_path(file: &Path, asset: &str, assets: Option<&Path>) -> Result<PathBuf
     Err(LoadError::new(file.display(), problem, remedy))
 }
 
-fn override_material(
-    scene: &mut Scene,
+/// The materials of that name: at least one.
+fn named<'a>(
+    scene: &'a mut Scene,
     place: &str,
     name: &str,
-    spec: &MaterialSpec,
-) -> Result<(), LoadError> {
-    let mut found: Vec<_> = scene.materials.iter_mut().filter(|m| m.name == name).collect();
-    if found.is_empty() {
+) -> Result<impl Iterator<Item = &'a mut Material>, LoadError> {
+    if scene.materials.iter().all(|material| material.name != name) {
         let names = scene.materials.iter().map(|material| material.name.as_str());
         return Err(LoadError::unknown(place, "material", name, names));
     }
-    let place = format!("{place}: material `{name}`");
-    for material in &mut found {
-        spec.apply(material, &place)?;
-    }
-    Ok(())
+    Ok(scene.materials.iter_mut().filter(move |material| material.name == name))
 }

@@ -1,11 +1,13 @@
 //! The parts of a scene file, and the checks of their numbers.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 use glam::Vec3;
 use serde::Deserialize;
 
-use crate::{Camera, Light, LoadError, Material};
+use crate::presets::PRESETS;
+use crate::{Camera, Light, LoadError, Material, Measured};
 
 /// A pinhole camera; lengths in metres, angles in degrees.
 #[derive(Deserialize)]
@@ -42,6 +44,10 @@ pub(super) struct MaterialSpec {
     ior: Option<f32>,
     specular: Option<f32>,
     emission: Option<[f32; 3]>,
+    /// A reflectance by name, instead of all of the above but the emission.
+    preset: Option<String>,
+    /// Likewise, from a file: `asset:PATH` below the assets folder, or a path relative to this file.
+    measured: Option<String>,
 }
 
 impl CameraSpec {
@@ -86,7 +92,30 @@ impl LightSpec {
 }
 
 impl MaterialSpec {
-    pub(super) fn apply(&self, material: &mut Material, place: &str) -> Result<(), LoadError> {
+    /// Changes `material`; `locate` finds the files that this one names.
+    pub(super) fn apply(
+        &self,
+        material: &mut Material,
+        place: &str,
+        locate: impl Fn(&str) -> Result<PathBuf, LoadError>,
+    ) -> Result<(), LoadError> {
+        if let Some(emission) = self.emission {
+            material.emission = radiance(place, "emission", emission)?;
+        }
+        if let Some(name) = &self.preset {
+            self.only("preset", place)?;
+            let names = PRESETS.iter().map(|preset| preset.name);
+            let preset = PRESETS.iter().find(|preset| preset.name == name);
+            let preset = preset.ok_or_else(|| LoadError::unknown(place, "preset", name, names))?;
+            *material = material.clone().with_brdf(preset.brdf());
+            return Ok(());
+        }
+        if let Some(file) = &self.measured {
+            self.only("measured", place)?;
+            let measured = Measured::load(&locate(file)?).map_err(|error| error.within(place))?;
+            *material = material.clone().with_brdf(measured.brdf());
+            return Ok(());
+        }
         let unit = |key, value: Option<f32>, old| match value {
             Some(value) => number(place, key, value, 0.0..=1.0),
             None => Ok(old),
@@ -104,10 +133,27 @@ impl MaterialSpec {
         if let Some(ior) = self.ior {
             material.ior = number(place, "ior", ior, 1.0..=10.0)?;
         }
-        if let Some(emission) = self.emission {
-            material.emission = radiance(place, "emission", emission)?;
-        }
         Ok(())
+    }
+
+    /// Refuses factors beside a key that gives the reflectance whole.
+    fn only(&self, key: &str, place: &str) -> Result<(), LoadError> {
+        let factors = [
+            ("base_color", self.base_color.is_some()),
+            ("metallic", self.metallic.is_some()),
+            ("roughness", self.roughness.is_some()),
+            ("ior", self.ior.is_some()),
+            ("specular", self.specular.is_some()),
+            ("preset", self.preset.is_some()),
+            ("measured", self.measured.is_some()),
+        ];
+        match factors.iter().find(|(factor, present)| *present && *factor != key) {
+            Some((factor, _)) => {
+                let problem = format!("{key} and {factor} exclude each other");
+                Err(LoadError::new(place, problem, "keep one of them"))
+            }
+            None => Ok(()),
+        }
     }
 }
 

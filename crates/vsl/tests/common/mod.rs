@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use manylights_gpu::{Gpu, GpuFrame, RadiusRule, SurfaceRecord, VirtualLight};
 use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
 use manylights_metrics::RadianceImage;
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Lobe};
 use manylights_vsl::{Sampling, Settings, SphericalLight, Vsl, oracle, spherical_lights};
 
 pub(crate) static GPU: LazyLock<Gpu> =
@@ -79,7 +79,8 @@ fn parameters(settings: &Settings) -> Parameters {
 }
 
 pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, f90, alpha } = brdf;
+    let Brdf { diffuse, f0, lobe, alpha } = brdf;
+    let f90 = lobe.slot();
     SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
 }
 
@@ -96,7 +97,7 @@ pub(crate) fn glossy(roughness: f32) -> Brdf {
     Brdf {
         diffuse: Vec3::splat(0.5),
         f0: Vec3::splat(0.04),
-        f90: 1.0,
+        lobe: Lobe::Schlick { f90: 1.0 },
         alpha: roughness * roughness,
     }
 }

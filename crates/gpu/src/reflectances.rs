@@ -1,0 +1,60 @@
+//! What kernels must know of the reflectances that they meet.
+
+use manylights_scene::{Brdf, Lobe, Measured, Scene};
+
+use crate::{Buffer, Error, Feature, Gpu};
+
+/// The kinds of reflectance in a scene: what it does not contain is not in its kernels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reflectances {
+    /// Any specular lobe.
+    pub specular: bool,
+    /// Any lobe with the exact Fresnel reflectance.
+    pub exact_fresnel: bool,
+    /// The measurements.
+    pub measured: Vec<Measured>,
+}
+
+impl Reflectances {
+    /// Those of all materials.
+    pub fn of_scene(scene: &Scene) -> Self {
+        Self::of(scene.materials.iter().map(|material| material.brdf(material.base_color)))
+    }
+
+    /// Those of single points.
+    pub fn of(brdfs: impl IntoIterator<Item = Brdf>) -> Self {
+        let mut kinds = Self::default();
+        for brdf in brdfs {
+            kinds.specular |= brdf.has_specular();
+            match brdf.lobe {
+                Lobe::Schlick { .. } => {}
+                Lobe::Dielectric { .. } => kinds.exact_fresnel = true,
+                Lobe::Measured(measured) if kinds.measured.contains(&measured) => {}
+                Lobe::Measured(measured) => kinds.measured.push(measured),
+            }
+        }
+        kinds
+    }
+
+    /// The switches of `package::brdf`, for [`link`](crate::link).
+    pub fn features(&self) -> [Feature<'static>; 2] {
+        [("exact_fresnel", self.exact_fresnel), ("measured", !self.measured.is_empty())]
+    }
+
+    /// The tables of `shaders/measured.wesl`, the first of a gather's own bindings; none where nothing
+    /// is measured.
+    ///
+    /// # Errors
+    /// Where they exceed what the adapter binds.
+    pub fn tables(&self, gpu: &Gpu) -> Result<Vec<Buffer>, Error> {
+        let Some(last) = self.measured.iter().map(|measured| measured.number()).max() else {
+            return Ok(Vec::new());
+        };
+        let mut words = vec![0; last as usize + 1];
+        for measured in &self.measured {
+            words[measured.number() as usize] = words.len() as u32;
+            words.extend_from_slice(measured.words());
+        }
+        Ok(vec![gpu.storage("measurements", &words)?])
+    }
+}

@@ -1,0 +1,160 @@
+//! Measured reflectances: files of the RGL and MERL databases, isotropic.
+//!
+//! A table that was read lives as long as the process: a [`Brdf`](crate::Brdf) with a measurement is as
+//! small a value as any other, and so are the records made from it. Reading the same data again finds
+//! the table that is there.
+
+mod estimate;
+mod merl;
+mod real;
+mod rgl;
+mod tensor;
+
+use std::fmt::{Debug, Formatter};
+use std::path::Path;
+use std::sync::{PoisonError, RwLock};
+
+use self::estimate::Estimate;
+use self::merl::Merl;
+use self::real::Real;
+use self::rgl::Rgl;
+use crate::{Brdf, LoadError, Lobe};
+
+/// The first word of a table on the adapter: its kind.
+const RGL: u32 = 0;
+const MERL: u32 = 1;
+
+/// Longest file that is read: a MERL material has 35 MB.
+const MAX_FILE: u64 = 1 << 26;
+
+/// All tables so far; a table's number is its index.
+static TABLES: RwLock<Vec<&'static Table>> = RwLock::new(Vec::new());
+
+/// A measured reflectance.
+#[derive(Clone, Copy)]
+pub struct Measured(&'static Table);
+
+struct Table {
+    number: u32,
+    values: Values,
+    /// As the adapter reads them.
+    words: Vec<u32>,
+    estimate: Estimate,
+}
+
+enum Values {
+    Rgl(Rgl),
+    Merl(Merl),
+}
+
+/// What is found wrong at `place` in a file that nothing here can mend.
+fn broken(place: impl std::fmt::Display, problem: impl std::fmt::Display) -> LoadError {
+    LoadError::new(place, problem, "download the file again")
+}
+
+impl Measured {
+    /// Reads a `.bsdf` file of the RGL database (isotropic, RGB) or a `.binary` file of MERL.
+    ///
+    /// # Errors
+    /// One line with the file, what is wrong and how to mend it.
+    pub fn load(path: &Path) -> Result<Self, LoadError> {
+        Self::read(path).map_err(|error| error.within(path.display()))
+    }
+
+    fn read(path: &Path) -> Result<Self, LoadError> {
+        let unreadable = |error| LoadError::new("cannot be read", error, "check the path");
+        let size = std::fs::metadata(path).map_err(unreadable)?.len();
+        if size > MAX_FILE {
+            let remedy = "use an isotropic RGB measurement";
+            return Err(LoadError::new("the file", format!("has {size} bytes"), remedy));
+        }
+        let bytes = || std::fs::read(path).map_err(unreadable);
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        let values = match extension {
+            Some("bsdf") => Values::Rgl(Rgl::read(&bytes()?)?),
+            Some("binary") => Values::Merl(Merl::read(&bytes()?)?),
+            _ => {
+                let remedy = "use a .bsdf file of RGL or a .binary file of MERL";
+                return Err(LoadError::new("the file", "is not a known measurement", remedy));
+            }
+        };
+        Ok(Self::keep(values))
+    }
+
+    fn keep(values: Values) -> Self {
+        let words = values.words();
+        let estimate = match &values {
+            Values::Rgl(rgl) => Estimate::new(&values, |theta| rgl.distribution(theta)),
+            Values::Merl(_) => {
+                Estimate::new(&values, |theta| estimate::backscatter(&values, theta))
+            }
+        };
+        let mut tables = TABLES.write().unwrap_or_else(PoisonError::into_inner);
+        if let Some(table) = tables.iter().find(|table| table.words == words) {
+            return Self(table);
+        }
+        let number = tables.len() as u32;
+        let table = Box::leak(Box::new(Table { number, values, words, estimate }));
+        tables.push(table);
+        Self(table)
+    }
+
+    /// The table of this number.
+    pub(crate) fn numbered(number: u32) -> Option<Self> {
+        let tables = TABLES.read().unwrap_or_else(PoisonError::into_inner);
+        tables.get(number as usize).map(|table| Self(table))
+    }
+
+    /// Its number in this process, from 0: what records on the adapter hold.
+    pub fn number(self) -> u32 {
+        self.0.number
+    }
+
+    /// All its numbers as `shaders/measured.wesl` reads them: integers, and the bits of f32.
+    pub fn words(self) -> &'static [u32] {
+        &self.0.words
+    }
+
+    /// The reflectance. `alpha`, `f0` and `diffuse` are those of a GGX and a Lambertian lobe that
+    /// share out its albedo: what samplers follow; [`Brdf::eval`] reads the table.
+    pub fn brdf(self) -> Brdf {
+        let Estimate { diffuse, f0, alpha } = self.0.estimate;
+        Brdf { diffuse, f0, alpha, lobe: Lobe::Measured(self) }
+    }
+
+    /// f(v, l) n·l in sr⁻¹ for unit directions above the horizon, in a frame with the normal as z and
+    /// v in the x-z plane, x ≥ 0. Measurements are not quite reciprocal: v is the viewer's side.
+    #[allow(private_bounds, reason = "f32 or f64: the precisions that reflectances are written in")]
+    pub(crate) fn eval<T: Real>(self, v: [T; 3], l: [T; 3]) -> [T; 3] {
+        self.0.values.eval(v, l)
+    }
+}
+
+impl Values {
+    fn eval<T: Real>(&self, v: [T; 3], l: [T; 3]) -> [T; 3] {
+        match self {
+            Self::Rgl(rgl) => rgl.eval(v, l),
+            Self::Merl(merl) => merl.eval(v, l).map(|value| value * l[2]),
+        }
+    }
+
+    fn words(&self) -> Vec<u32> {
+        match self {
+            Self::Rgl(rgl) => rgl.words(),
+            Self::Merl(merl) => merl.words(),
+        }
+    }
+}
+
+/// The same data.
+impl PartialEq for Measured {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.number == other.0.number
+    }
+}
+
+impl Debug for Measured {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "Measured({} numbers)", self.0.words.len())
+    }
+}
