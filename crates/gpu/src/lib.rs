@@ -19,6 +19,7 @@ mod report;
 mod rsm;
 mod scene_buffers;
 mod solid_angle;
+mod spherical_light;
 mod virtual_light;
 
 pub use batches::UniformBatches;
@@ -34,4 +35,5 @@ pub use radius::{RadiusRule, radii};
 pub use report::AdapterReport;
 pub use rsm::{Cell, Map, maps};
 pub use solid_angle::rectangle_solid_angle;
+pub use spherical_light::{SphericalLight, spherical_lights};
 pub use virtual_light::{LitMap, VirtualLight, distribute, lit_maps};

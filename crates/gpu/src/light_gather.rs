@@ -49,6 +49,7 @@ pub struct LightGather {
     gpu: Gpu,
     view: Buffer,
     radiance: Buffer,
+    tables: Vec<Buffer>,
     pixels: u32,
     pixels_a_group: u32,
     from_lambert: Arc<Kernel>,
@@ -59,30 +60,30 @@ pub struct LightGather {
 impl LightGather {
     /// For `pixels` surfaces, `pixels_a_group` a workgroup. `view` is what the kernels are told beside
     /// surfaces and lights; `wgsl` are those for lights on Lambertian and on glossy surfaces, with the
-    /// bindings view, surfaces, batch of lights, radiance.
+    /// bindings 0 view, 1 surfaces, 2 batch of lights, 3 radiance, 5 … `tables`, in storage.
     ///
     /// # Errors
     /// Where the adapter refuses a kernel or a buffer.
     pub fn new(
         gpu: &Gpu,
-        pixels: u32,
-        pixels_a_group: u32,
+        [pixels, pixels_a_group]: [u32; 2],
         view: &impl Pod,
         [lambert, glossy]: [&str; 2],
+        tables: Vec<Buffer>,
     ) -> Result<Self, Error> {
-        let kernel = |wgsl| {
-            let bindings =
-                [Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
-            gpu.kernel("gather", wgsl, &bindings)
-        };
+        let mut bindings =
+            vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
+        bindings.resize(5 + tables.len(), Binding::Storage);
+        let kernel = |wgsl| gpu.kernel("gather", wgsl, &bindings);
         Ok(Self {
             gpu: gpu.clone(),
             view: gpu.uniform("view", view)?,
             radiance: gpu.zeroed("radiance", u64::from(pixels) * 16)?,
-            pixels,
-            pixels_a_group,
             from_lambert: kernel(lambert)?,
             from_glossy: kernel(glossy)?,
+            tables,
+            pixels,
+            pixels_a_group,
         })
     }
 
@@ -103,11 +104,7 @@ impl LightGather {
                 None => (&self.from_lambert, Resource::Batch(&batches.lambert, index)),
                 Some(index) => (&self.from_glossy, Resource::Batch(&batches.glossy, index)),
             })
-            .map(|(kernel, batch)| {
-                let [view, surfaces, radiance] =
-                    [&self.view, surfaces, &self.radiance].map(Resource::Buffer);
-                (kernel, [view, surfaces, batch, radiance])
-            })
+            .map(|(kernel, batch)| (kernel, self.resources(surfaces, batch)))
             .collect();
         let dispatches: Vec<_> = chosen
             .iter()
@@ -119,6 +116,15 @@ impl LightGather {
             })
             .collect();
         self.gpu.run(&dispatches)
+    }
+
+    fn resources<'a>(&'a self, surfaces: &'a Buffer, batch: Resource<'a>) -> Vec<Resource<'a>> {
+        let [view, surfaces, radiance] =
+            [&self.view, surfaces, &self.radiance].map(Resource::Buffer);
+        // Binding 4 is reserved: any buffer will do.
+        let mut resources = vec![view, surfaces, batch, radiance, surfaces];
+        resources.extend(self.tables.iter().map(Resource::Buffer));
+        resources
     }
 
     fn workgroups(&self) -> [u32; 3] {

@@ -77,5 +77,6 @@ pub(crate) fn gather(
     let view = View { camera, pixels, samples: settings.samples, padding: [0; 3] };
     let wgsl =
         [linked_shader(specular, false, settings)?, linked_shader(specular, specular, settings)?];
-    LightGather::new(gpu, pixels, PIXELS_A_GROUP, &view, wgsl.each_ref().map(String::as_str))
+    let wgsl = wgsl.each_ref().map(String::as_str);
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, Vec::new())
 }
