@@ -19,31 +19,49 @@
 //!
 //! # Lobes
 //! - Lambertian: a zonal function, n terms; odd bands but l = 1 vanish ([`diffuse`]).
-//! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`]); twice, since
-//!   f0 may have a colour. One table serves all materials of one roughness, textured ones included.
-//! - A light's emission is its plain reflectance towards the shaded point; on Lambertian surfaces that
-//!   is one colour, and nothing of the light depends on the pixel but the cosine.
+//! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`]); twice where
+//!   some f0 has a colour. One table serves all materials of one roughness, textured ones included.
+//! - A window damps the bands of both where it is asked for; it is part of the tables.
+//!
+//! # Zonal form (5.2.7)
+//! The specular lobe is one circular lobe about its own axis ([`zonal`]), n terms. The Lambertian lobe
+//! is no expansion at all: the irradiance of the cap, clipped by the horizon in closed form
+//! ([`horizon::irradiance`]), times the transmission at the sphere's centre; H is for the specular lobe
+//! alone. So a Lambertian surface is exact, whatever the bands. Limit: one circular lobe. What it
+//! misses of a lobe is printed by `examples/bands.rs`.
+//!
+//! # Emission (5.6)
+//! On Lambertian surfaces one colour: nothing of the light depends on the pixel but the cosine. On
+//! glossy ones the scene's reflectance itself by default (`emission_bands` = 0), which is exact and
+//! takes fewer operations than three bands of an expansion; or an expansion ([`emission`]), whose band 0
+//! alone makes the light as cheap as a Lambertian one. See `examples/emission.rs` for what each costs.
 //!
 //! # Cost
-//! A pair of light and pixel takes, for n bands, about 40 operations of geometry, 4n for the scales of
-//! the cap, 5n for the Lambertian lobe (3n/2 without a specular one) and 2n² + 5n for the two
-//! specular products: see [`manylights_harmonics::wgsl::Generated::operations`]. A pixel's expansions
-//! (n(n + 1) numbers) are fetched once a batch. Lights take 48 bytes, glossy ones 64.
+//! A pixel's expansion is fetched once a batch, not once a light. `examples/throughput.rs` prints what a
+//! pair of light and pixel takes, and how far the adapter is from it. Lights take 48 bytes, glossy ones
+//! 64.
 //!
 //! # Deviations from the papers
 //! - 5.8: the lower clamp is π/2 − a; as printed it never acts.
-//! - 5.6: emission is not expanded (the thesis: 1 to 5 bands).
 //! - Φ_j is the flux of the light's cell, not power/count; the emitting cosine is that of the geometric
 //!   normal (see [`manylights_gpu::VirtualLight::flux`]).
+//! - 5.2.7: axis, cosine and Lambertian lobe, see [`zonal`] and above.
 //! - A pixel whose sum is negative, which no radiance is, is shown as 0.
 
+mod cache;
+mod damping;
 pub mod diffuse;
+pub mod emission;
 mod gather;
+mod half_vectors;
+pub mod horizon;
 mod light_record;
 pub mod lobes;
 pub mod oracle;
 mod params;
+mod receiver_lobe;
 mod spherical_light;
+pub mod zonal;
 
 use glam::Vec3;
 use manylights_gpu::{Gpu, SurfaceRecord};
@@ -51,14 +69,13 @@ use manylights_harmonics::even_count;
 use manylights_method::{
     Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
 };
-use manylights_scene::Brdf;
 
-use gather::CAPACITY;
+use gather::{CAPACITY, Materials};
 
-pub use gather::linked_shader;
+pub use gather::{Lobes, linked_shader};
 pub use light_record::rounded;
 pub use manylights_gpu::SphericalLight;
-pub use params::{Horizon, MAX_BANDS, Settings};
+pub use params::{Damping, Form, Horizon, MAX_BANDS, Settings};
 pub use spherical_light::spherical_lights;
 
 /// Products of coefficients in one submission, light by pixel: about a second on a slow processor,
@@ -104,24 +121,16 @@ impl Method for Hvl {
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
-        let alphas = distinct_alphas(scene.materials.iter().map(|m| m.brdf(Vec3::ZERO)));
-        let gather = gather::gather(gpu, pixels, camera.position, &alphas, &settings)?;
+        let materials = Materials::of_scene(scene);
+        let gather = gather::gather(gpu, pixels, camera.position, &materials, &settings)?;
         let products_a_batch = u64::from(pixels) * (CAPACITY * even_count(settings.bands)) as u64;
         let batches_a_step = (PRODUCTS_A_STEP / products_a_batch) as usize;
         let place = move || {
             let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
-            Ok((gather::batches(gpu, &lights)?, times))
+            Ok((gather::batches(gpu, &lights, &materials, &settings)?, times))
         };
         Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
     }
-}
-
-/// The widths of all specular lobes.
-fn distinct_alphas(brdfs: impl Iterator<Item = Brdf>) -> Vec<f32> {
-    let mut alphas: Vec<_> = brdfs.filter(Brdf::has_specular).map(|brdf| brdf.alpha).collect();
-    alphas.sort_by(f32::total_cmp);
-    alphas.dedup();
-    alphas
 }
 
 /// Radiance of given surfaces under given lights ([`rounded`]), by the adapter's kernels: what a picture
@@ -137,9 +146,9 @@ pub fn gather(
     settings: &Settings,
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
-    let alphas = distinct_alphas(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &alphas, settings)?;
-    let batches = gather::batches(gpu, lights)?;
+    let materials = Materials::new(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &materials, settings)?;
+    let batches = gather::batches(gpu, lights, &materials, settings)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()
 }

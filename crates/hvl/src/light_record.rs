@@ -1,11 +1,11 @@
 //! Spheres of light as the gather reads them from uniform memory.
 
-use std::f32::consts::FRAC_1_PI;
-
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 use manylights_gpu::SphericalLight;
 use manylights_scene::Brdf;
+
+use crate::emission;
 
 /// The sphere with its light as [`GlossyLight`] holds it, where it lies on a glossy surface: directions
 /// to 6.5e-5, reflectances to 8e-6.
@@ -21,7 +21,7 @@ pub fn rounded(sphere: &SphericalLight) -> SphericalLight {
     SphericalLight { light, radius: sphere.radius }
 }
 
-/// A sphere on a Lambertian surface: 48 bytes.
+/// A sphere that emits alike in all directions: 48 bytes.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct LambertLight {
@@ -29,7 +29,8 @@ pub(crate) struct LambertLight {
     radius: f32,
     geometric_normal: Vec3,
     padding0: f32,
-    /// Φ ρ/π: radiant intensity along the normal, W·sr⁻¹.
+    /// Radiant intensity along the normal, W·sr⁻¹: Φ ρ/π; on a glossy surface whose emission is expanded
+    /// in one band, Φ times the mean of its reflectance.
     intensity: Vec3,
     padding1: f32,
 }
@@ -45,7 +46,8 @@ pub(crate) struct GlossyLight {
     alpha: f32,
     /// Geometric normal, shading normal, direction to the primary light: see [`pack_direction`].
     directions: [u32; 3],
-    padding: u32,
+    /// First element of its row in the table of emissions, where emission is expanded.
+    row: u32,
     /// diffuse, f0, f90 in 16 bits each: see [`pack_reflectance`].
     reflectance: [u32; 4],
 }
@@ -53,18 +55,19 @@ pub(crate) struct GlossyLight {
 impl LambertLight {
     pub(crate) fn new(sphere: &SphericalLight) -> Self {
         let light = &sphere.light;
+        let reflectance = emission::reflectance(light, light.normal.as_dvec3(), 1);
         Self {
             position: light.position,
             radius: sphere.radius,
             geometric_normal: light.geometric_normal,
-            intensity: light.flux * light.brdf.diffuse * FRAC_1_PI,
+            intensity: light.flux * reflectance.as_vec3(),
             ..Self::zeroed()
         }
     }
 }
 
 impl GlossyLight {
-    pub(crate) fn new(sphere: &SphericalLight) -> Self {
+    pub(crate) fn new(sphere: &SphericalLight, row: u32) -> Self {
         let light = &sphere.light;
         let directions = [light.geometric_normal, light.normal, light.incoming];
         Self {
@@ -73,7 +76,7 @@ impl GlossyLight {
             flux: light.flux,
             alpha: light.brdf.alpha,
             directions: directions.map(pack_direction),
-            padding: 0,
+            row,
             reflectance: pack_reflectance(&light.brdf),
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::Vec3;
 use manylights_gpu::VirtualLight;
 use manylights_harmonics::zonal::Cap;
-use manylights_hvl::oracle::above_horizon;
+use manylights_hvl::horizon::above;
 use manylights_hvl::{Horizon, SphericalLight, rounded};
 use manylights_scene::Brdf;
 
@@ -31,7 +31,7 @@ fn the_exact_share_is_that_of_intersecting_caps() {
     for a in [0.01, 0.05, 0.3, 1.0, 1.4, 1.57] {
         for i in 0..=200 {
             let d = f64::from(i) / 200.0 * PI;
-            let share = above_horizon(Horizon::Exact, d.cos(), cap(a));
+            let share = above(Horizon::Exact, d.cos(), cap(a));
             // The three angles lose 1e-16/a².
             assert!((share - three_angles(d, a)).abs() < 1e-11, "a {a} d {d}: {share}");
         }
@@ -46,7 +46,7 @@ fn the_smooth_share_is_near_the_exact_one() {
             .map(|i| (f64::from(i) / 400.0 * PI).cos())
             .map(|c| {
                 let [smooth, exact] =
-                    [Horizon::Smooth, Horizon::Exact].map(|h| above_horizon(h, c, cap(a)));
+                    [Horizon::Smooth, Horizon::Exact].map(|h| above(h, c, cap(a)));
                 (smooth - exact).abs()
             })
             .fold(0.0, f64::max);
