@@ -14,10 +14,11 @@ pub type Feature<'a> = (&'a str, bool);
 pub type Module<'a> = (&'a str, &'a str);
 
 /// Modules that every shader may import as `package::NAME`.
-const SHARED: [(&str, &str); 3] = [
+const SHARED: [(&str, &str); 4] = [
     ("brdf", include_str!("shaders/brdf.wesl")),
     ("surface", include_str!("shaders/surface.wesl")),
     ("scene", include_str!("shaders/scene.wesl")),
+    ("visible", include_str!("shaders/visible.wesl")),
 ];
 
 /// The WGSL of the module `source`, with what it imports from the shared modules and from `modules`

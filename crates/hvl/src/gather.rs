@@ -2,7 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Buffer, Error, Gpu, LightBatches, LightGather, SphericalLight, link};
+use manylights_gpu::{
+    Buffer, Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, SphericalLight, link,
+};
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_scene::{Brdf, Material, Scene};
 
@@ -33,7 +35,7 @@ pub struct Lobes {
 ///
 /// # Errors
 /// Where the shader does not link.
-pub fn linked_shader(lobes: Lobes, settings: &Settings) -> Result<String, Error> {
+pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<String, Error> {
     let Settings { bands, emission_bands, damping, .. } = *settings;
     let expanded = emission_bands > 0;
     let sh = wgsl::module(bands, &[Function::CapScales, Function::EvaluateEven]);
@@ -55,6 +57,7 @@ pub fn linked_shader(lobes: Lobes, settings: &Settings) -> Result<String, Error>
         ("zonal", settings.form == Form::Zonal),
         ("exact_horizon", settings.horizon == Horizon::Exact),
         ("expanded_emission", expanded),
+        ("traced", traced),
     ];
     link("gather", include_str!("shaders/gather.wesl"), &modules, &features)
 }
@@ -137,7 +140,7 @@ fn single(values: &[[f64; 2]]) -> Vec<[f32; 2]> {
 /// # Errors
 /// Where the adapter refuses.
 pub(crate) fn batches(
-    gpu: &Gpu,
+    gather: &LightGather,
     lights: &[SphericalLight],
     materials: &Materials,
     settings: &Settings,
@@ -145,10 +148,15 @@ pub(crate) fn batches(
     let bands = settings.emission_bands;
     let (glossy, lambert): (Vec<_>, Vec<_>) =
         lights.iter().partition(|sphere| bands != 1 && sphere.light.brdf.has_specular());
+    let centers = [&lambert, &glossy]
+        .map(|lights| lights.iter().map(|sphere| Center::from(&sphere.light)).collect::<Vec<_>>());
     let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
     let record = |sphere| GlossyLight::new(sphere, materials.emission_row(sphere, bands));
     let glossy: Vec<_> = glossy.into_iter().map(record).collect();
-    LightBatches::new(gpu, (&lambert, CAPACITY), (&glossy, CAPACITY))
+    gather.batches(
+        &Lights { records: &lambert, centers: &centers[0], capacity: CAPACITY },
+        &Lights { records: &glossy, centers: &centers[1], capacity: CAPACITY },
+    )
 }
 
 /// For `pixels` surfaces seen from `camera`; without a specular lobe no kernel knows GGX.
@@ -161,10 +169,13 @@ pub(crate) fn gather(
     camera: Vec3,
     materials: &Materials,
     settings: &Settings,
+    shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     let [lambert, glossy] = materials.lobes(settings);
-    let wgsl = [linked_shader(lambert, settings)?, linked_shader(glossy, settings)?];
+    let traced = shadows.is_some();
+    let wgsl =
+        [linked_shader(lambert, traced, settings)?, linked_shader(glossy, traced, settings)?];
     let wgsl = wgsl.each_ref().map(String::as_str);
-    let tables = materials.tables(gpu, settings)?;
-    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &View { camera, pixels }, wgsl, tables)
+    let (view, tables) = (View { camera, pixels }, materials.tables(gpu, settings)?);
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, tables, shadows)
 }

@@ -1,9 +1,9 @@
 //! Harmonics virtual lights (Mézières et al. 2022; thesis 5.2): virtual lights as spheres, their light
 //! against the reflectance of the shaded point on spherical harmonics.
 //!
-//! One indirect bounce, without visibility between virtual light and shaded point:
+//! One indirect bounce, with V the visibility of the sphere's centre, or 1 with `visibility = ignored`:
 //!
-//! L(x, v) = Σ_j Φ_j f_j(ω_p, −ω_j) ⟨n_j·−ω_j⟩/(π r_j²) H(n_x, ω_j) Σ_lm c_l(r_j/d_j) Y_lm(ω_j) F'_lm(v)
+//! L(x, v) = Σ_j V(x, y_j) Φ_j f_j(ω_p, −ω_j) ⟨n_j·−ω_j⟩/(π r_j²) H(n_x, ω_j) Σ_lm c_l(r_j/d_j) Y_lm(ω_j) F'_lm(v)
 //!
 //! with c_l the scales of the cap that the sphere covers (thesis 3.11, in the form that keeps its digits
 //! for small caps), F' the expansion of the cosine-weighted reflectance f_x(v, ·) ⟨n_x·⟩ in `bands`
@@ -64,10 +64,11 @@ mod spherical_light;
 pub mod zonal;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, SurfaceRecord};
+use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
 use manylights_harmonics::even_count;
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
+    many_light_frame,
 };
 
 use gather::{CAPACITY, Materials};
@@ -106,6 +107,10 @@ impl Method for Hvl {
         "lights"
     }
 
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
     /// Half of the lights is half of the flux.
     fn is_progressive(&self) -> bool {
         false
@@ -116,18 +121,18 @@ impl Method for Hvl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        let on_gpu = many_light_frame(frame)?;
+        let (on_gpu, shadows) = many_light_frame(frame)?;
         let settings = Settings::new(parameters);
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
         let materials = Materials::of_scene(scene);
-        let gather = gather::gather(gpu, pixels, camera.position, &materials, &settings)?;
+        let gather = gather::gather(gpu, pixels, camera.position, &materials, &settings, shadows)?;
         let products_a_batch = u64::from(pixels) * (CAPACITY * even_count(settings.bands)) as u64;
         let batches_a_step = (PRODUCTS_A_STEP / products_a_batch) as usize;
-        let place = move || {
+        let place = move |gather: &LightGather| {
             let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
-            Ok((gather::batches(gpu, &lights, &materials, &settings)?, times))
+            Ok((gather::batches(gather, &lights, &materials, &settings)?, times))
         };
         Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
     }
@@ -147,8 +152,8 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
     let materials = Materials::new(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &materials, settings)?;
-    let batches = gather::batches(gpu, lights, &materials, settings)?;
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &materials, settings, None)?;
+    let batches = gather::batches(&gather, lights, &materials, settings)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()
 }

@@ -14,7 +14,7 @@ fn a_lambertian_scene_links_no_ggx() {
     for form in FORMS {
         for horizon in [Horizon::Smooth, Horizon::Exact] {
             let settings = Settings { form, horizon, emission_bands: 3, ..SETTINGS };
-            let wgsl = linked_shader(LAMBERT, &settings).expect("links");
+            let wgsl = linked_shader(LAMBERT, false, &settings).expect("links");
             for word in ["alphas", "glossy", "schlick", "specular", "smith", "lobe_dot", "emission"]
             {
                 assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
@@ -23,9 +23,9 @@ fn a_lambertian_scene_links_no_ggx() {
             assert!(!wgsl.contains(other));
             // The Lambertian lobe of the zonal form is in closed form.
             assert_eq!(wgsl.contains("cap_scales"), form == Form::Full);
-            let glossy = linked_shader(GLOSSY, &settings).expect("links");
+            let glossy = linked_shader(GLOSSY, true, &settings).expect("links");
             assert!(glossy.contains("lobe_dot") && glossy.contains("emission_lobe"));
-            assert_eq!(glossy.contains("sh_evaluate_even(direction"), true);
+            assert!(glossy.contains("sh_evaluate_even") && glossy.contains("is_visible"));
         }
     }
 }
@@ -46,8 +46,10 @@ fn every_permutation_is_valid() {
         for lobes in lobes {
             for (bands, emission_bands) in [(1, 0), (2, 2), (5, 3), (20, 0)] {
                 let settings = Settings { form, bands, emission_bands, ..SETTINGS };
-                let wgsl = linked_shader(lobes, &settings).expect("links");
-                GPU.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
+                for traced in [false, true] {
+                    let wgsl = linked_shader(lobes, traced, &settings).expect("links");
+                    GPU.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
+                }
             }
         }
     }
