@@ -101,8 +101,9 @@ fn main() {
     let zonal = Settings { form: Form::Zonal, ..SETTINGS };
     for roughness in ROUGHNESS {
         let brdf = glossy(roughness);
-        let truth =
-            |view, sphere| oracle::by_quadrature(&surface(brdf), view, sphere, |_, _| 1.0, 48);
+        let truth = |view, sphere: &SphericalLight| {
+            oracle::by_quadrature(&surface(brdf), view, sphere, |_, _| 1.0, 48)
+        };
         let truths: Vec<Vec<_>> = views()
             .into_iter()
             .map(|view| spheres().iter().map(|sphere| truth(view, sphere)).collect())

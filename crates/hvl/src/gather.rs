@@ -148,8 +148,9 @@ pub(crate) fn batches(
     let bands = settings.emission_bands;
     let (glossy, lambert): (Vec<_>, Vec<_>) =
         lights.iter().partition(|sphere| bands != 1 && sphere.light.brdf.has_specular());
-    let centers = [&lambert, &glossy]
-        .map(|lights| lights.iter().map(|sphere| Center::from(&sphere.light)).collect::<Vec<_>>());
+    let centers = [&lambert, &glossy].map(|lights: &Vec<&SphericalLight>| {
+        lights.iter().map(|sphere| Center::from(&sphere.light)).collect::<Vec<_>>()
+    });
     let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
     let record = |sphere| GlossyLight::new(sphere, materials.emission_row(sphere, bands));
     let glossy: Vec<_> = glossy.into_iter().map(record).collect();

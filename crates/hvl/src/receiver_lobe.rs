@@ -11,7 +11,7 @@ use crate::{Form, Settings};
 ///   the next, the first of each pair times share.x plus the second times share.y;
 /// - `lobe_dot(y: array<f32, N>, scales: array<f32, n>, lobe: array<f32, N>) -> f32`: the double
 ///   product with a cap, whose basis functions at its axis are `y`.
-pub fn module(settings: &Settings) -> String {
+pub(crate) fn module(settings: &Settings) -> String {
     let bands = settings.bands;
     let (size, header) = match settings.form {
         Form::Full => (even_count(bands), 0),
