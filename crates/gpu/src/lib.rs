@@ -21,6 +21,7 @@ mod rsm;
 mod scene_buffers;
 mod shadows;
 mod solid_angle;
+mod spherical_light;
 mod virtual_light;
 
 pub use batches::UniformBatches;
@@ -38,4 +39,5 @@ pub use report::AdapterReport;
 pub use rsm::{Cell, Map, maps};
 pub use shadows::{Center, Shadows};
 pub use solid_angle::rectangle_solid_angle;
+pub use spherical_light::{SphericalLight, spherical_lights};
 pub use virtual_light::{LitMap, VirtualLight, distribute, lit_maps};

@@ -23,6 +23,14 @@ pub enum RadiusRule {
     /// r₂, thesis 5.10 and 5.12: the distance between diagonal neighbours on a surface that faces the
     /// primary light. For a directional light, whose map has no angle, the diagonal of a cell.
     FieldOfView,
+    /// One metre, for the user's factor to scale (thesis figure 5.8: 0.25).
+    Fixed,
+}
+
+impl RadiusRule {
+    /// Every rule, in the order of the parameter `radius` of all methods.
+    pub const ALL: [Self; 4] =
+        [Self::NearestNeighbours, Self::MapNeighbours, Self::FieldOfView, Self::Fixed];
 }
 
 /// Lights that [`RadiusRule::NearestNeighbours`] asks.
@@ -45,6 +53,9 @@ pub fn radii(scene: &Scene, maps: &[LitMap], rule: RadiusRule) -> (Vec<f32>, Pas
             maps.iter().flat_map(|map| map_neighbours(map, epsilon)).collect()
         }
         RadiusRule::FieldOfView => maps.iter().flat_map(field_of_view).collect(),
+        RadiusRule::Fixed => {
+            maps.iter().flat_map(|map| map.lights.iter().flatten()).map(|_| 1.0).collect()
+        }
     };
     (radii, PassTime { pass: "radius", seconds: start.elapsed().as_secs_f64() })
 }

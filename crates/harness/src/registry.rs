@@ -1,5 +1,6 @@
 //! The only list of methods in the workspace. Help, lists, sweeps and plot styles derive from it.
 
+use manylights_hvl::Hvl;
 use manylights_method::Method;
 use manylights_path_tracer::PathTracer;
 use manylights_vpl::Vpl;
@@ -8,7 +9,7 @@ use manylights_vsl::Vsl;
 use crate::names;
 
 /// Every method, in the order of lists; its position fixes its colour and marker in plots.
-pub const METHODS: &[&dyn Method] = &[&PathTracer, &Vpl, &Vsl];
+pub const METHODS: &[&dyn Method] = &[&PathTracer, &Vpl, &Vsl, &Hvl];
 
 /// The method of this name.
 ///

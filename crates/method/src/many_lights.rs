@@ -98,7 +98,12 @@ impl Run for ManyLightRun<'_> {
 
     fn resolve(&mut self) -> Result<RadianceImage, Error> {
         let [width, height] = self.frame.resolution();
-        Ok(RadianceImage { width, height, pixels: self.gather.radiance()? })
+        let mut pixels = self.gather.radiance()?;
+        // Truncated expansions may sum to less than no light. `max` would hide what is not a number.
+        for value in pixels.as_flattened_mut().iter_mut().filter(|value| **value < 0.0) {
+            *value = 0.0;
+        }
+        Ok(RadianceImage { width, height, pixels })
     }
 
     fn counters(&self) -> Vec<(&'static str, u64)> {

@@ -56,8 +56,9 @@ use manylights_method::{
 use gather::CAPACITY;
 
 pub use gather::linked_shader;
+pub use manylights_gpu::SphericalLight;
 pub use params::{Sampling, Settings};
-pub use spherical_light::{SphericalLight, spherical_lights};
+pub use spherical_light::spherical_lights;
 
 /// Directions in one submission, about a second on a slow processor, where a batch has fewer; a batch
 /// is never cut.

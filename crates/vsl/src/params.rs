@@ -19,8 +19,8 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     },
     ParameterInfo {
         name: "radius",
-        help: "0 = ten nearest lights, 1 = r₁ (thesis 5.9), 2 = r₂ (thesis 5.12)",
-        kind: ParameterKind::Count { default: 2, min: 0, max: 2 },
+        help: "0 = ten nearest lights, 1 = r₁ (thesis 5.9), 2 = r₂ (thesis 5.12), 3 = one metre",
+        kind: ParameterKind::Count { default: 2, min: 0, max: 3 },
     },
     ParameterInfo {
         name: "scale",
@@ -65,11 +65,7 @@ impl Settings {
                 1 => Sampling::Cone,
                 _ => Sampling::Both,
             },
-            radius: match parameters.count("radius") {
-                0 => RadiusRule::NearestNeighbours,
-                1 => RadiusRule::MapNeighbours,
-                _ => RadiusRule::FieldOfView,
-            },
+            radius: RadiusRule::ALL[parameters.count("radius") as usize],
             scale: parameters.real("scale") as f32,
         }
     }

@@ -66,6 +66,7 @@ fn parameters(settings: &Settings) -> Parameters {
         RadiusRule::NearestNeighbours => "0",
         RadiusRule::MapNeighbours => "1",
         RadiusRule::FieldOfView => "2",
+        RadiusRule::Fixed => "3",
     };
     let texts = [
         ("lights", settings.lights.to_string()),

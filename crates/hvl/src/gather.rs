@@ -1,0 +1,182 @@
+//! The kernels and what they read.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+use manylights_gpu::{
+    Buffer, Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, SphericalLight, link,
+};
+use manylights_harmonics::wgsl::{self, Function};
+use manylights_scene::{Brdf, Material, Scene};
+
+use crate::emission::{self, EmissionTable};
+use crate::light_record::{GlossyLight, LambertLight};
+use crate::lobes::LobeTable;
+use crate::zonal::ZonalTable;
+use crate::{Form, Horizon, Settings, diffuse, receiver_lobe};
+
+/// Spheres a batch, as `shaders/gather.wesl` declares its array.
+pub(crate) const CAPACITY: usize = 512;
+
+/// Lanes, one pixel each: at ten bands a pixel's reflectance fills 55 to 110 registers.
+const PIXELS_A_GROUP: u32 = 64;
+
+/// The lobes that kernels must know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lobes {
+    /// Some receiver may have a specular lobe.
+    pub receivers: bool,
+    /// Some light of the batch has one, and its emission is not isotropic.
+    pub lights: bool,
+    /// Some specular lobe is not grey at normal incidence.
+    pub colored: bool,
+}
+
+/// The WGSL of the kernel for receivers and lights of the given lobes.
+///
+/// # Errors
+/// Where the shader does not link.
+pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<String, Error> {
+    let Settings { bands, emission_bands, damping, .. } = *settings;
+    let expanded = emission_bands > 0;
+    let sh = wgsl::module(bands, &[Function::CapScales, Function::EvaluateEven]);
+    let emission_sh = wgsl::module(emission_bands.max(1), &[Function::EvaluateEven]);
+    let modules = [
+        ("sh", &*sh),
+        ("diffuse", &*diffuse::module(bands, damping)),
+        ("lobe", &*receiver_lobe::module(settings)),
+        ("emission_sh", &*emission_sh),
+        ("emission", &*emission::module(emission_bands.max(1))),
+        ("horizon", include_str!("shaders/horizon.wesl")),
+        ("receiver", include_str!("shaders/receiver.wesl")),
+        ("light", include_str!("shaders/light.wesl")),
+    ];
+    let features = [
+        ("glossy_receivers", lobes.receivers),
+        ("glossy_lights", lobes.lights),
+        ("colored", lobes.colored),
+        ("zonal", settings.form == Form::Zonal),
+        ("exact_horizon", settings.horizon == Horizon::Exact),
+        ("expanded_emission", expanded),
+        ("traced", traced),
+    ];
+    link("gather", include_str!("shaders/gather.wesl"), &modules, &features)
+}
+
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct View {
+    camera: Vec3,
+    pixels: u32,
+}
+
+/// What all specular lobes of a picture have.
+pub(crate) struct Materials {
+    /// Their widths, in order.
+    alphas: Vec<f32>,
+    colored: bool,
+}
+
+impl Materials {
+    pub(crate) fn new(brdfs: impl Iterator<Item = Brdf>) -> Self {
+        let specular: Vec<_> = brdfs.filter(Brdf::has_specular).collect();
+        let mut alphas: Vec<_> = specular.iter().map(|brdf| brdf.alpha).collect();
+        alphas.sort_by(f32::total_cmp);
+        alphas.dedup();
+        let grey = |brdf: &Brdf| brdf.f0 == Vec3::splat(brdf.f0.x);
+        Self { alphas, colored: !specular.iter().all(grey) }
+    }
+
+    pub(crate) fn of_scene(scene: &Scene) -> Self {
+        let materials = &scene.materials;
+        let plain = Self::new(materials.iter().map(|material| material.brdf(material.base_color)));
+        let textured = |m: &Material| m.metallic > 0.0 && m.base_color_texture.is_some();
+        Self { colored: plain.colored || materials.iter().any(textured), ..plain }
+    }
+
+    /// First element in the table of emissions of the row for a light.
+    fn emission_row(&self, sphere: &SphericalLight, bands: usize) -> u32 {
+        let table = self.alphas.partition_point(|&alpha| alpha < sphere.light.brdf.alpha);
+        let row = table * emission::ANGLES + emission::degrees(&sphere.light);
+        (row * emission::terms(bands).count()) as u32
+    }
+
+    fn lobes(&self, settings: &Settings) -> [Lobes; 2] {
+        let receivers = !self.alphas.is_empty();
+        let lights = receivers && settings.emission_bands != 1;
+        [false, lights].map(|lights| Lobes { receivers, lights, colored: self.colored })
+    }
+
+    /// As bindings 5 to 7.
+    fn tables(&self, gpu: &Gpu, settings: &Settings) -> Result<Vec<Buffer>, Error> {
+        if self.alphas.is_empty() {
+            return Ok(Vec::new());
+        }
+        let receivers = self.alphas.iter().flat_map(|&alpha| {
+            let Settings { bands, damping, .. } = *settings;
+            match settings.form {
+                Form::Full => single(LobeTable::of(alpha, bands, damping).values()),
+                Form::Zonal => single(ZonalTable::of(alpha, bands, damping).values()),
+            }
+        });
+        let receivers: Vec<_> = receivers.collect();
+        let mut tables =
+            vec![gpu.storage("alphas", &self.alphas)?, gpu.storage("lobes", &receivers)?];
+        let bands = settings.emission_bands;
+        if bands > 1 {
+            let rows = |&alpha: &f32| single(EmissionTable::of(alpha, bands).values());
+            let rows: Vec<_> = self.alphas.iter().flat_map(rows).collect();
+            tables.push(gpu.storage("emissions", &rows)?);
+        }
+        Ok(tables)
+    }
+}
+
+fn single(values: &[[f64; 2]]) -> Vec<[f32; 2]> {
+    values.iter().map(|pair| pair.map(|value| value as f32)).collect()
+}
+
+/// The lights in uniform memory.
+///
+/// # Errors
+/// Where the adapter refuses.
+pub(crate) fn batches(
+    gather: &LightGather,
+    lights: &[SphericalLight],
+    materials: &Materials,
+    settings: &Settings,
+) -> Result<LightBatches, Error> {
+    let bands = settings.emission_bands;
+    let (glossy, lambert): (Vec<_>, Vec<_>) =
+        lights.iter().partition(|sphere| bands != 1 && sphere.light.brdf.has_specular());
+    let centers = [&lambert, &glossy].map(|lights: &Vec<&SphericalLight>| {
+        lights.iter().map(|sphere| Center::from(&sphere.light)).collect::<Vec<_>>()
+    });
+    let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
+    let record = |sphere| GlossyLight::new(sphere, materials.emission_row(sphere, bands));
+    let glossy: Vec<_> = glossy.into_iter().map(record).collect();
+    gather.batches(
+        &Lights { records: &lambert, centers: &centers[0], capacity: CAPACITY },
+        &Lights { records: &glossy, centers: &centers[1], capacity: CAPACITY },
+    )
+}
+
+/// For `pixels` surfaces seen from `camera`; without a specular lobe no kernel knows GGX.
+///
+/// # Errors
+/// Where a shader does not link or the adapter refuses.
+pub(crate) fn gather(
+    gpu: &Gpu,
+    pixels: u32,
+    camera: Vec3,
+    materials: &Materials,
+    settings: &Settings,
+    shadows: Option<Shadows>,
+) -> Result<LightGather, Error> {
+    let [lambert, glossy] = materials.lobes(settings);
+    let traced = shadows.is_some();
+    let wgsl =
+        [linked_shader(lambert, traced, settings)?, linked_shader(glossy, traced, settings)?];
+    let wgsl = wgsl.each_ref().map(String::as_str);
+    let (view, tables) = (View { camera, pixels }, materials.tables(gpu, settings)?);
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, tables, shadows)
+}

@@ -1,0 +1,159 @@
+//! Harmonics virtual lights (Mézières et al. 2022; thesis 5.2): virtual lights as spheres, their light
+//! against the reflectance of the shaded point on spherical harmonics.
+//!
+//! One indirect bounce, with V the visibility of the sphere's centre, or 1 with `visibility = ignored`:
+//!
+//! L(x, v) = Σ_j V(x, y_j) Φ_j f_j(ω_p, −ω_j) ⟨n_j·−ω_j⟩/(π r_j²) H(n_x, ω_j) Σ_lm c_l(r_j/d_j) Y_lm(ω_j) F'_lm(v)
+//!
+//! with c_l the scales of the cap that the sphere covers (thesis 3.11, in the form that keeps its digits
+//! for small caps), F' the expansion of the cosine-weighted reflectance f_x(v, ·) ⟨n_x·⟩ in `bands`
+//! bands, and H the share of the sphere above the horizon (5.5–5.8). Seen from inside (d < r) the
+//! sphere covers the hemisphere about ω_j.
+//!
+//! # What it converges to
+//! For `scale` → 0 to virtual point lights whose reflectance is cut at `bands`. For `bands` → ∞ to the
+//! integral of f_x cos⁺ over the sphere's cap times H ([`oracle::by_quadrature`]). Where the horizon
+//! cuts a sphere, that is less than the sphere sends: the expansion of cos⁺ clips already, and H clips
+//! again; it is there to stop what a short expansion leaks below the horizon. Where x lies inside a
+//! sphere, 1/(π r²) replaces 1/(π d²). Both fade with the radius.
+//!
+//! # Lobes
+//! - Lambertian: a zonal function, n terms; odd bands but l = 1 vanish ([`diffuse`]).
+//! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`]); twice where
+//!   some f0 has a colour. One table serves all materials of one roughness, textured ones included.
+//! - A window damps the bands of both where it is asked for; it is part of the tables.
+//!
+//! # Zonal form (5.2.7)
+//! The specular lobe is one circular lobe about its own axis ([`zonal`]), n terms. The Lambertian lobe
+//! is no expansion at all: the irradiance of the cap, clipped by the horizon in closed form
+//! ([`horizon::irradiance`]), times the transmission at the sphere's centre; H is for the specular lobe
+//! alone. So a Lambertian surface is exact, whatever the bands. Limit: one circular lobe. What it
+//! misses of a lobe is printed by `examples/bands.rs`.
+//!
+//! # Emission (5.6)
+//! On Lambertian surfaces one colour: nothing of the light depends on the pixel but the cosine. On
+//! glossy ones the scene's reflectance itself by default (`emission_bands` = 0), which is exact and
+//! takes fewer operations than three bands of an expansion; or an expansion ([`emission`]), whose band 0
+//! alone makes the light as cheap as a Lambertian one. See `examples/emission.rs` for what each costs.
+//!
+//! # Cost
+//! A pixel's expansion is fetched once a batch, not once a light. `examples/throughput.rs` prints what a
+//! pair of light and pixel takes, and how far the adapter is from it. Lights take 48 bytes, glossy ones
+//! 64.
+//!
+//! # Deviations from the papers
+//! - 5.8: the lower clamp is π/2 − a; as printed it never acts.
+//! - Φ_j is the flux of the light's cell, not power/count; the emitting cosine is that of the geometric
+//!   normal (see [`manylights_gpu::VirtualLight::flux`]).
+//! - 5.2.7: axis, cosine and Lambertian lobe, see [`zonal`] and above.
+//! - A pixel whose sum is negative, which no radiance is, is shown as 0.
+
+mod cache;
+mod damping;
+pub mod diffuse;
+pub mod emission;
+mod gather;
+mod half_vectors;
+pub mod horizon;
+mod light_record;
+pub mod lobes;
+pub mod oracle;
+mod params;
+mod receiver_lobe;
+mod spherical_light;
+pub mod zonal;
+
+use glam::Vec3;
+use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
+use manylights_harmonics::even_count;
+use manylights_method::{
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
+    many_light_frame,
+};
+
+use gather::{CAPACITY, Materials};
+
+pub use gather::{Lobes, linked_shader};
+pub use light_record::rounded;
+pub use manylights_gpu::SphericalLight;
+pub use params::{Damping, Form, Horizon, MAX_BANDS, Settings};
+pub use spherical_light::spherical_lights;
+
+/// Products of coefficients in one submission, light by pixel: about a second on a slow processor,
+/// far below any watchdog on a fast one.
+const PRODUCTS_A_STEP: u64 = 1 << 31;
+
+/// The method.
+pub struct Hvl;
+
+impl Method for Hvl {
+    fn id(&self) -> &'static str {
+        "hvl"
+    }
+
+    fn title(&self) -> &'static str {
+        "harmonics virtual lights (Mézières et al. 2022)"
+    }
+
+    fn processor(&self) -> Processor {
+        Processor::Gpu
+    }
+
+    fn parameters(&self) -> &'static [ParameterInfo] {
+        params::PARAMETERS
+    }
+
+    fn cost_parameter(&self) -> &'static str {
+        "lights"
+    }
+
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
+    /// Half of the lights is half of the flux.
+    fn is_progressive(&self) -> bool {
+        false
+    }
+
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        let (on_gpu, shadows) = many_light_frame(frame)?;
+        let settings = Settings::new(parameters);
+        let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
+        let [width, height] = on_gpu.resolution();
+        let pixels = width * height;
+        let materials = Materials::of_scene(scene);
+        let gather = gather::gather(gpu, pixels, camera.position, &materials, &settings, shadows)?;
+        let products_a_batch = u64::from(pixels) * (CAPACITY * even_count(settings.bands)) as u64;
+        let batches_a_step = (PRODUCTS_A_STEP / products_a_batch) as usize;
+        let place = move |gather: &LightGather| {
+            let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
+            Ok((gather::batches(gather, &lights, &materials, &settings)?, times))
+        };
+        Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
+    }
+}
+
+/// Radiance of given surfaces under given lights ([`rounded`]), by the adapter's kernels: what a picture
+/// does, for hard cases that no scene brings about.
+///
+/// # Errors
+/// Where the adapter refuses.
+pub fn gather(
+    gpu: &Gpu,
+    surfaces: &[SurfaceRecord],
+    camera: Vec3,
+    lights: &[SphericalLight],
+    settings: &Settings,
+) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
+    let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
+    let materials = Materials::new(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &materials, settings, None)?;
+    let batches = gather::batches(&gather, lights, &materials, settings)?;
+    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
+    gather.radiance()
+}

@@ -1,0 +1,110 @@
+//! Single surfaces and lights; pictures on the adapter and with the oracle.
+#![allow(dead_code, reason = "each test uses its part")]
+
+use std::sync::LazyLock;
+
+use glam::{DVec3, Quat, Vec3};
+use manylights_gpu::{Gpu, GpuFrame, RadiusRule, SurfaceRecord, VirtualLight};
+use manylights_hvl::{
+    Damping, Form, Horizon, Hvl, Settings, SphericalLight, oracle, rounded, spherical_lights,
+};
+use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_metrics::RadianceImage;
+use manylights_scene::Brdf;
+
+pub(crate) static GPU: LazyLock<Gpu> =
+    LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
+
+pub(crate) const SETTINGS: Settings = Settings {
+    lights: 256,
+    bands: 5,
+    form: Form::Full,
+    emission_bands: 0,
+    damping: Damping::None,
+    radius: RadiusRule::FieldOfView,
+    scale: 1.0,
+    horizon: Horizon::Smooth,
+};
+
+pub(crate) const FORMS: [Form; 2] = [Form::Full, Form::Zonal];
+
+pub(crate) struct Picture {
+    pub(crate) image: RadianceImage,
+    pub(crate) surfaces: Vec<SurfaceRecord>,
+    pub(crate) eye: DVec3,
+    pub(crate) lights: Vec<SphericalLight>,
+}
+
+impl Picture {
+    /// By the oracle, negative pixels shown as 0.
+    pub(crate) fn oracle(&self, settings: &Settings) -> Vec<DVec3> {
+        let truth = |surface| oracle::radiance(surface, self.eye, &self.lights, settings);
+        self.surfaces.iter().map(|surface| truth(surface).max(DVec3::ZERO)).collect()
+    }
+}
+
+/// A picture with the parameters as texts, and with the settings that they mean.
+pub(crate) fn render(
+    scene: &str,
+    resolution: [u32; 2],
+    texts: &[(&str, &str)],
+    settings: &Settings,
+    visibility: Visibility,
+) -> Picture {
+    let scene = manylights_scene::load(scene, None).expect("built in");
+    let camera = &scene.cameras[0];
+    let on_gpu = GpuFrame::new(&GPU, &scene, camera, resolution).expect("the scene fits");
+    let frame = Frame {
+        scene: &scene,
+        camera,
+        resolution,
+        transport: Transport::Indirect { bounces: 1, visibility },
+        seed: 0,
+        gpu: Some(&on_gpu),
+    };
+    let parameters = Parameters::new(Hvl.parameters(), texts.iter().copied()).expect("in range");
+    let mut run = Hvl.prepare(&frame, &parameters).expect("hvl renders the scene");
+    while !run.step().expect("a step").finished() {}
+    let image = run.resolve().expect("a picture");
+    let surfaces = GPU.read(on_gpu.surfaces()).expect("read-back");
+    let (lights, _) = spherical_lights(&on_gpu, &scene, settings, 0).expect("lights");
+    Picture { image, surfaces, eye: camera.position.as_dvec3(), lights }
+}
+
+pub(crate) fn glossy(roughness: f32) -> Brdf {
+    Brdf {
+        diffuse: Vec3::new(0.5, 0.3, 0.2),
+        f0: Vec3::splat(0.04),
+        f90: 1.0,
+        alpha: roughness * roughness,
+    }
+}
+
+pub(crate) fn metal(roughness: f32) -> Brdf {
+    Brdf { diffuse: Vec3::ZERO, f0: Vec3::new(0.9, 0.7, 0.4), ..glossy(roughness) }
+}
+
+pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
+    let Brdf { diffuse, f0, f90, alpha } = brdf;
+    SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
+}
+
+pub(crate) fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> SphericalLight {
+    let incoming = (normal + 0.5 * normal.any_orthonormal_vector()).normalize();
+    let flux = Vec3::ONE;
+    let light = VirtualLight { position, geometric_normal: normal, normal, incoming, flux, brdf };
+    rounded(&SphericalLight { light, radius })
+}
+
+/// An oblique frame, so that no coordinate is exact.
+pub(crate) fn oblique(v: Vec3) -> Vec3 {
+    Quat::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -0.7) * v
+}
+
+/// A direction of a spiral over the sphere.
+pub(crate) fn spiral(i: u32, count: u32) -> Vec3 {
+    let z = (i as f32 + 0.5) / count as f32 * 2.0 - 1.0;
+    let (sin, cos) = (i as f32 * 2.399_963).sin_cos();
+    let r = (1.0 - z * z).sqrt();
+    Vec3::new(r * cos, r * sin, z)
+}

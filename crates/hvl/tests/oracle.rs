@@ -1,0 +1,155 @@
+//! The adapter's gather against the f64 oracle.
+
+mod common;
+
+use common::{FORMS, GPU, SETTINGS, glossy, light, metal, oblique, render, spiral, surface};
+use glam::Vec3;
+use manylights_gpu::{RadiusRule, SurfaceRecord};
+use manylights_harmonics::window::Window;
+use manylights_hvl::{Damping, Form, Horizon, Settings, SphericalLight, gather, oracle};
+use manylights_method::Visibility;
+use manylights_scene::Brdf;
+use manylights_scene::bvh::Bvh;
+
+/// Receivers around the origin, where a light shines up.
+fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
+    (0..512)
+        .map(|i| {
+            let place = spiral(i, 512) * (0.2 + 0.01 * i as f32);
+            surface(oblique(place), oblique(spiral((i * 197) % 512, 512)), brdf)
+        })
+        .filter(|surface| surface.normal.dot(camera - surface.position) > 0.0)
+        .collect()
+}
+
+/// Largest difference to the oracle over all receivers, relative to the largest true radiance.
+fn worst(receiver: Brdf, sphere: &SphericalLight, settings: &Settings) -> f64 {
+    let camera = oblique(Vec3::new(0.3, 7.0, 0.2));
+    let surfaces = receivers(receiver, camera);
+    let pixels = gather(&GPU, &surfaces, camera, &[*sphere], settings).expect("a gather");
+    let (mut peak, mut worst): (f64, f64) = (0.0, 0.0);
+    for (surface, pixel) in surfaces.iter().zip(pixels) {
+        let truth = oracle::radiance(surface, camera.as_dvec3(), &[*sphere], settings);
+        let pixel = Vec3::from(pixel);
+        assert!(pixel.is_finite(), "{surface:?} {sphere:?}: {pixel}");
+        peak = peak.max(truth.abs().max_element());
+        worst = worst.max((pixel.as_dvec3() - truth).abs().max_element());
+    }
+    assert!(peak > 0.0, "nothing arrives");
+    worst / peak
+}
+
+#[test]
+fn every_form_on_every_pair_of_lobes() {
+    let lambert = Brdf::lambert(Vec3::splat(0.7));
+    let pairs = [
+        ("Lambert by Lambert", lambert, lambert),
+        ("glossy by Lambert", glossy(0.4), lambert),
+        ("metal by glossy", metal(0.3), glossy(0.5)),
+    ];
+    for (name, receiver, emitter) in pairs {
+        let sphere = light(Vec3::ZERO, oblique(Vec3::Y), emitter, 0.4);
+        for form in FORMS {
+            for (bands, emission_bands) in [(1, 1), (5, 0), (8, 3)] {
+                for horizon in [Horizon::Smooth, Horizon::Exact] {
+                    let settings = Settings { bands, form, emission_bands, horizon, ..SETTINGS };
+                    let worst = worst(receiver, &sphere, &settings);
+                    println!(
+                        "{name}, {form:?}, {bands}, {emission_bands}, {horizon:?}: {worst:.1e}"
+                    );
+                    // A few roundings of f32.
+                    assert!(worst < 3e-6, "{name}, {settings:?}: {worst:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_window() {
+    let sphere = light(Vec3::ZERO, oblique(Vec3::Y), glossy(0.5), 0.4);
+    let windows = [Window::Hann, Window::Lanczos, Window::Hamming].map(Damping::Window);
+    for damping in windows.into_iter().chain([Damping::Weakest]) {
+        for form in FORMS {
+            let worst = worst(glossy(0.3), &sphere, &Settings { damping, form, ..SETTINGS });
+            assert!(worst < 3e-6, "{damping:?}, {form:?}: {worst:e}");
+        }
+    }
+}
+
+/// Largest difference of any pixel to the oracle's picture, relative to the largest component.
+fn difference(scene: &str, texts: &[(&str, &str)], settings: &Settings) -> f64 {
+    let picture = render(scene, [24, 18], texts, settings, Visibility::Ignored);
+    let truth = picture.oracle(settings);
+    let peak = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
+    assert!(peak > 0.0, "{scene} is black");
+    let pixels = picture.image.pixels.iter().map(|&pixel| Vec3::from(pixel).as_dvec3());
+    let errors = pixels.zip(&truth).map(|(p, t)| (p - t).abs().max_element() / peak);
+    let worst = errors.fold(0.0, f64::max);
+    println!("{scene} {texts:?}: {worst:.1e}");
+    worst
+}
+
+#[test]
+fn pictures() {
+    for scene in ["cornell", "cornell-glossy", "atrium", "trio"] {
+        assert!(
+            difference(scene, &[("lights", "64")], &Settings { lights: 64, ..SETTINGS }) < 1e-5
+        );
+    }
+}
+
+#[test]
+fn every_parameter_reaches_the_picture() {
+    let settings = Settings { lights: 64, ..SETTINGS };
+    let zonal = Settings { form: Form::Zonal, bands: 9, ..settings };
+    let expanded = Settings { emission_bands: 3, horizon: Horizon::Exact, ..settings };
+    let hann = Damping::Window(Window::Hann);
+    let neighbours = Settings { radius: RadiusRule::MapNeighbours, scale: 1.7, ..settings };
+    let fixed = Settings { radius: RadiusRule::Fixed, scale: 0.25, damping: hann, ..settings };
+    let cases: [(&[(&str, &str)], Settings); 4] = [
+        (&[("form", "1"), ("bands", "9")], zonal),
+        (&[("emission_bands", "3"), ("horizon", "1")], expanded),
+        (&[("radius", "1"), ("scale", "1.7")], neighbours),
+        (&[("radius", "3"), ("scale", "0.25"), ("window", "1")], fixed),
+    ];
+    for (texts, settings) in cases {
+        let texts: Vec<_> = texts.iter().copied().chain([("lights", "64")]).collect();
+        assert!(difference("trio", &texts, &settings) < 1e-5, "{texts:?}");
+    }
+}
+
+#[test]
+fn same_seed_same_image() {
+    let render = || render("trio", [16, 12], &[], &SETTINGS, Visibility::Ignored).image;
+    assert_eq!(render(), render());
+}
+
+/// Every pixel is the oracle's sum over the lights that the host's rays find visible. The two walks
+/// round differently where a ray grazes an edge: a share of the pixels may be another.
+#[test]
+fn traced_shadows() {
+    let settings = Settings { lights: 64, ..SETTINGS };
+    let picture =
+        render("cornell-glossy", [24, 18], &[("lights", "64")], &settings, Visibility::Traced);
+    let scene = manylights_scene::load("cornell-glossy", None).expect("built in");
+    let bvh = Bvh::build(&scene);
+    let (mut hidden, mut wrong) = (0, 0);
+    for (surface, pixel) in picture.surfaces.iter().zip(&picture.image.pixels) {
+        if surface.triangle == SurfaceRecord::NO_TRIANGLE {
+            continue;
+        }
+        let front = scene.geometric_normal(surface.triangle);
+        let normal = if front.dot(surface.normal) >= 0.0 { front } else { -front };
+        let sees = |sphere: &&SphericalLight| {
+            let light = &sphere.light;
+            bvh.sees([surface.position, normal], [light.position, light.geometric_normal])
+        };
+        let visible: Vec<_> = picture.lights.iter().filter(sees).copied().collect();
+        hidden += picture.lights.len() - visible.len();
+        let truth = oracle::radiance(surface, picture.eye, &visible, &settings).as_vec3();
+        let difference = (Vec3::from(*pixel) - truth.max(Vec3::ZERO)).abs().max_element();
+        wrong += usize::from(difference > 1e-4 * truth.max_element().max(1e-3));
+    }
+    assert!(hidden > 1000 && wrong <= 4, "{hidden} hidden, {wrong} wrong");
+}

@@ -1,0 +1,56 @@
+//! What the linked WGSL holds.
+
+mod common;
+
+use common::{FORMS, GPU, SETTINGS};
+use manylights_gpu::Binding;
+use manylights_hvl::{Form, Horizon, Lobes, Settings, linked_shader};
+
+const LAMBERT: Lobes = Lobes { receivers: false, lights: false, colored: false };
+const GLOSSY: Lobes = Lobes { receivers: true, lights: true, colored: true };
+
+#[test]
+fn a_lambertian_scene_links_no_ggx() {
+    for form in FORMS {
+        for horizon in [Horizon::Smooth, Horizon::Exact] {
+            let settings = Settings { form, horizon, emission_bands: 3, ..SETTINGS };
+            let wgsl = linked_shader(LAMBERT, false, &settings).expect("links");
+            for word in ["alphas", "glossy", "schlick", "specular", "smith", "lobe_dot", "emission"]
+            {
+                assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
+            }
+            let other = if horizon == Horizon::Exact { "horizon_smooth" } else { "horizon_exact" };
+            assert!(!wgsl.contains(other));
+            // The Lambertian lobe of the zonal form is in closed form.
+            assert_eq!(wgsl.contains("cap_scales"), form == Form::Full);
+            let glossy = linked_shader(GLOSSY, true, &settings).expect("links");
+            assert!(glossy.contains("lobe_dot") && glossy.contains("emission_lobe"));
+            assert!(glossy.contains("sh_evaluate_even") && glossy.contains("is_visible"));
+        }
+    }
+}
+
+#[test]
+fn every_permutation_is_valid() {
+    let mut bindings =
+        vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
+    bindings.resize(8, Binding::Storage);
+    let lobes = [
+        LAMBERT,
+        Lobes { receivers: true, ..LAMBERT },
+        Lobes { lights: false, ..GLOSSY },
+        Lobes { colored: false, ..GLOSSY },
+        GLOSSY,
+    ];
+    for form in FORMS {
+        for lobes in lobes {
+            for (bands, emission_bands) in [(1, 0), (2, 2), (5, 3), (20, 0)] {
+                let settings = Settings { form, bands, emission_bands, ..SETTINGS };
+                for traced in [false, true] {
+                    let wgsl = linked_shader(lobes, traced, &settings).expect("links");
+                    GPU.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
+                }
+            }
+        }
+    }
+}
