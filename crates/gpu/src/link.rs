@@ -14,9 +14,10 @@ pub type Feature<'a> = (&'a str, bool);
 pub type Module<'a> = (&'a str, &'a str);
 
 /// Modules that every shader may import as `package::NAME`.
-const SHARED: [(&str, &str); 3] = [
+const SHARED: [(&str, &str); 4] = [
     ("brdf", include_str!("shaders/brdf.wesl")),
     ("surface", include_str!("shaders/surface.wesl")),
+    ("lit_texel", include_str!("shaders/lit_texel.wesl")),
     ("scene", include_str!("shaders/scene.wesl")),
 ];
 
