@@ -1,11 +1,12 @@
 //! Virtual point lights against closed forms and against the reference that they converge to.
 
+use glam::Vec3;
 use manylights_gpu::{Gpu, GpuFrame};
 use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer::Settings;
-use manylights_scene::Scene;
 use manylights_scene::builtin::integrating_sphere::{ALBEDO, INTENSITY, RADIUS};
+use manylights_scene::{Light, Scene};
 use manylights_vpl::Vpl;
 
 const TRANSPORT: Transport = Transport::Indirect { bounces: 1, visibility: Visibility::Ignored };
@@ -44,14 +45,26 @@ fn integrating_sphere() {
 /// so the RMSE falls with h^(1/2), to a half for 16 times the lights. The bound leaves a factor 1.5.
 #[test]
 fn converges_to_the_reference_without_visibility() {
-    let scene = manylights_scene::load("cornell", None).expect("built in");
+    converges(&manylights_scene::load("cornell", None).expect("built in"));
+}
+
+#[test]
+fn converges_in_parallel_light() {
+    let mut scene = manylights_scene::load("cornell", None).expect("built in");
+    // Through the open front.
+    let direction = Vec3::new(0.3, -0.5, -1.0).normalize();
+    scene.lights = vec![Light::Directional { direction, irradiance: Vec3::splat(3.0) }];
+    converges(&scene);
+}
+
+fn converges(scene: &Scene) {
     let resolution = [48, 48];
     let settings = Settings { transport: TRANSPORT, resolution, seed: 0, samples: 2048 };
     let reference =
-        manylights_path_tracer::render(&scene, &scene.cameras[0], &settings, None, &mut |_| {})
+        manylights_path_tracer::render(scene, &scene.cameras[0], &settings, None, &mut |_| {})
             .expect("a reference");
     let errors = [64, 1024, 16_384, 262_144].map(|lights| {
-        let image = vpl(&scene, resolution, lights);
+        let image = vpl(scene, resolution, lights);
         manylights_metrics::compare_linear(&image, &reference.image).expect("comparable").rmse
     });
     println!("RMSE {errors:?}, noise floor {}", reference.noise_floor);

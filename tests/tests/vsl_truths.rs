@@ -35,12 +35,16 @@ fn bias(lights: &str, samples: &str, sampling: &str, radius: &str) -> f32 {
 }
 
 /// Spheres darken concave surfaces: of the directions to a light at distance d, a share is below one
-/// of the two horizons where d² < rR, which holds for a part ∝ r/R of the lights. So the bias is of
-/// first order in r, halves with four times the lights, and 2 % needs radii of R/20.
+/// of the two horizons where d² < 2rR, which holds for a part ∝ r/R of the lights. So the bias is of
+/// first order in r, −4/(3π) r/R, halves with four times the lights, and 2 % needs radii of R/20.
 #[test]
 fn integrating_sphere() {
     let [coarse, fine] = ["2048", "32768"].map(|lights| bias(lights, "4", "1", "2"));
-    assert!(coarse < 0.0 && (3.0..5.0).contains(&(coarse / fine)), "{coarse}, {fine}");
+    // Six maps of 19² cells: r/R by thesis 5.10 and 5.12.
+    let angle = std::f32::consts::SQRT_2 * std::f32::consts::FRAC_PI_2 / 19.0;
+    let expected = -4.0 / (3.0 * std::f32::consts::PI) * (angle + angle.powi(3) / 3.0);
+    assert!((coarse / expected - 1.0).abs() < 0.15, "{coarse}, {expected}");
+    assert!((3.0..5.0).contains(&(coarse / fine)), "{coarse}, {fine}");
     for (sampling, radius) in [("1", "0"), ("1", "1"), ("0", "2"), ("2", "2")] {
         let bias = bias("32768", "4", sampling, radius);
         assert!(bias.abs() < 0.02, "sampling {sampling}, radius {radius}: {bias}");

@@ -19,28 +19,32 @@ impl UniformBatches {
     /// Bytes before the records.
     const HEADER: usize = 16;
 
-    /// Lays out `records`, `capacity` a batch, in order. No records: one batch of count 0.
+    /// Lays out `records` in order, `most` a batch, in batches that have room for `capacity`. No
+    /// records: one batch of count 0.
     ///
     /// # Errors
     /// Where the adapter refuses the buffer.
     ///
     /// # Panics
-    /// Where a batch exceeds 64 KiB or the record is no multiple of 16 bytes.
+    /// Where a batch exceeds 64 KiB, the record is no multiple of 16 bytes or `most` is not in
+    /// 1..=`capacity`.
     pub fn new<T: Pod>(
         gpu: &Gpu,
         label: &str,
         records: &[T],
         capacity: usize,
+        most: usize,
     ) -> Result<Self, Error> {
         let batch_size = Self::HEADER + capacity * size_of::<T>();
         assert!(batch_size <= 65536, "a batch of {batch_size} bytes exceeds 64 KiB");
         assert!(size_of::<T>().is_multiple_of(16), "uniform arrays have a stride of 16 bytes");
+        assert!((1..=capacity).contains(&most), "{most} records in a batch of {capacity}");
         let alignment = gpu.shared.limits.min_uniform_buffer_offset_alignment as usize;
         let stride = batch_size.next_multiple_of(alignment);
-        let batches = records.len().div_ceil(capacity).max(1);
+        let batches = records.len().div_ceil(most).max(1);
         let mut bytes = vec![0_u8; batches * stride];
         let mut counts = vec![0; batches];
-        for (index, chunk) in records.chunks(capacity).enumerate() {
+        for (index, chunk) in records.chunks(most).enumerate() {
             let batch = &mut bytes[index * stride..];
             counts[index] = chunk.len() as u32;
             batch[..4].copy_from_slice(&counts[index].to_le_bytes());

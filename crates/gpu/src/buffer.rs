@@ -3,7 +3,8 @@ use wgpu::util::DeviceExt as _;
 
 use crate::{Error, Gpu};
 
-/// Memory on the adapter.
+/// Memory on the adapter; a clone is the same memory.
+#[derive(Clone)]
 pub struct Buffer {
     pub(crate) raw: wgpu::Buffer,
 }

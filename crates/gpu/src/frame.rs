@@ -1,9 +1,12 @@
+use std::sync::{Arc, OnceLock};
+
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use manylights_scene::{Brdf, Camera, Scene};
 
 use crate::raster::rasterise;
 use crate::scene_buffers::SceneBuffers;
+use crate::shadows::Occluders;
 use crate::{Buffer, Error, Gpu, PassTime, Projection};
 
 /// A texel of the G-buffer or of a reflective shadow map, as `shaders/surface.wesl` lays it out.
@@ -45,6 +48,8 @@ pub struct GpuFrame {
     surfaces: Buffer,
     resolution: [u32; 2],
     times: Vec<PassTime>,
+    /// Made for the first method that casts shadow rays.
+    occluders: OnceLock<Result<Arc<Occluders>, Error>>,
 }
 
 impl GpuFrame {
@@ -61,7 +66,8 @@ impl GpuFrame {
         let buffers = SceneBuffers::new(gpu, scene)?;
         let projection = Projection::camera(camera, resolution, scene.size());
         let (surfaces, times) = rasterise(gpu, &buffers, &projection)?;
-        Ok(Self { gpu: gpu.clone(), scene: buffers, surfaces, resolution, times })
+        let occluders = OnceLock::new();
+        Ok(Self { gpu: gpu.clone(), scene: buffers, surfaces, resolution, times, occluders })
     }
 
     /// The adapter that holds it.
@@ -77,6 +83,11 @@ impl GpuFrame {
     /// Width, height in pixels.
     pub fn resolution(&self) -> [u32; 2] {
         self.resolution
+    }
+
+    pub(crate) fn occluders(&self, scene: &Scene) -> Result<Arc<Occluders>, Error> {
+        let make = || Occluders::new(&self.gpu, scene).map(Arc::new);
+        self.occluders.get_or_init(make).clone()
     }
 
     /// What the G-buffer took.

@@ -3,6 +3,9 @@ use std::time::Instant;
 
 use crate::{Buffer, Error, Gpu, UniformBatches};
 
+/// A set of timestamps holds 4096, two a pass.
+const PASSES_A_SUBMISSION: usize = 1024;
+
 /// The kind of a binding of group 0, in the order of their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Binding {
@@ -112,11 +115,15 @@ impl Gpu {
     /// # Errors
     /// Where a binding does not fit or the device was lost.
     pub fn run(&self, dispatches: &[Dispatch<'_>]) -> Result<Vec<PassTime>, Error> {
-        let seconds = self.timed(dispatches.len(), |encoder, index, queries| {
-            self.encode(encoder, &dispatches[index], queries, index as u32);
-        })?;
-        let times = dispatches.iter().zip(seconds);
-        Ok(times.map(|(dispatch, seconds)| PassTime { pass: dispatch.pass, seconds }).collect())
+        let mut times = Vec::with_capacity(dispatches.len());
+        for part in dispatches.chunks(PASSES_A_SUBMISSION) {
+            let seconds = self.timed(part.len(), |encoder, index, queries| {
+                self.encode(encoder, &part[index], queries, index as u32);
+            })?;
+            let passes = part.iter().map(|dispatch| dispatch.pass);
+            times.extend(passes.zip(seconds).map(|(pass, seconds)| PassTime { pass, seconds }));
+        }
+        Ok(times)
     }
 
     fn encode(

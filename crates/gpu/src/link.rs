@@ -14,11 +14,12 @@ pub type Feature<'a> = (&'a str, bool);
 pub type Module<'a> = (&'a str, &'a str);
 
 /// Modules that every shader may import as `package::NAME`.
-const SHARED: [(&str, &str); 4] = [
+const SHARED: [(&str, &str); 5] = [
     ("brdf", include_str!("shaders/brdf.wesl")),
     ("surface", include_str!("shaders/surface.wesl")),
     ("lit_texel", include_str!("shaders/lit_texel.wesl")),
     ("scene", include_str!("shaders/scene.wesl")),
+    ("visible", include_str!("shaders/visible.wesl")),
 ];
 
 /// The WGSL of the module `source`, with what it imports from the shared modules and from `modules`

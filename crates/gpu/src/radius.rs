@@ -14,14 +14,14 @@ use crate::{PassTime, Projection};
 /// How far a virtual light reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RadiusRule {
-    /// Distance to the farthest of the ten nearest lights (Hašan et al. 2009; thesis 5.2.4 speaks of
+    /// Distance to the farthest of the ten nearest lights of all maps (Hašan et al. 2009; thesis 5.2.4 speaks of
     /// the closest neighbours).
     NearestNeighbours,
     /// r₁, thesis 5.9: the mean distance to the eight neighbours on the map, weighted by how alike
     /// their distances to the primary light are.
     MapNeighbours,
     /// r₂, thesis 5.10 and 5.12: the distance between diagonal neighbours on a surface that faces the
-    /// primary light. For a directional light, whose map has no angle, √2 times the side of a cell.
+    /// primary light. For a directional light, whose map has no angle, the diagonal of a cell.
     FieldOfView,
 }
 

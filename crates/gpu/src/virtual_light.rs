@@ -27,6 +27,19 @@ pub struct VirtualLight {
     pub brdf: Brdf,
 }
 
+impl VirtualLight {
+    /// Unit tangent towards the primary light; any where the light is on the normal.
+    pub fn tangent(&self) -> Vec3 {
+        let across = self.incoming - self.normal.dot(self.incoming) * self.normal;
+        // Shorter ones are rounding. The second projection takes out what rounding left of the normal
+        // in short ones.
+        if across.length_squared() <= 1e-12 {
+            return self.normal.any_orthonormal_vector();
+        }
+        (across - self.normal.dot(across) * self.normal).normalize()
+    }
+}
+
 /// The virtual lights of one reflective shadow map, with their places on it.
 #[derive(Clone, Debug)]
 pub struct LitMap {

@@ -1,5 +1,7 @@
 //! Radii of virtual lights against what they are made of.
 
+use std::f32::consts::{FRAC_PI_2, SQRT_2};
+
 use glam::Vec3;
 use manylights_gpu::{LitMap, Map, Projection, RadiusRule, VirtualLight, radii};
 use manylights_scene::{Brdf, Light, Scene};
@@ -61,7 +63,10 @@ fn neighbours_on_the_map() {
     let (found, _) = radii(&scene(), &[lit(side, |_, at| Some(at))], RadiusRule::MapNeighbours);
     let spacing = 2.0 * DISTANCE / side as f32;
     let middle = found[(side * side / 2) as usize];
-    assert!(spacing < middle && middle < std::f32::consts::SQRT_2 * spacing, "{middle} {spacing}");
+    let depth = |steps: f32| (DISTANCE.powi(2) + steps * spacing.powi(2)).sqrt() - DISTANCE;
+    let [beside, diagonal] = [1.0, 2.0].map(|steps| 1.0 / (depth(steps) + 1e-3 * scene().size()));
+    let expected = (beside + diagonal * SQRT_2) / (beside + diagonal) * spacing;
+    assert!((middle / expected - 1.0).abs() < 1e-3, "{middle} {expected}");
     // A column that lies ten times as far: its own two neighbours outweigh the six before it, at
     // twenty times the spacing between them.
     let behind = |index: u32, at: Vec3| Some(if index % side == 20 { 10.0 * at } else { at });
@@ -73,17 +78,33 @@ fn neighbours_on_the_map() {
 
 #[test]
 fn field_of_view() {
-    // In the middle of a facing plane r₂ is close to the distance between diagonal neighbours: the
-    // mean cell of a tangent map is π/4 of the middle one.
+    // Thesis 5.10 and 5.12 for λ = 90°.
     let side = 41;
     let (found, _) = radii(&scene(), &[lit(side, |_, at| Some(at))], RadiusRule::FieldOfView);
-    let diagonal = std::f32::consts::SQRT_2 * 2.0 * DISTANCE / side as f32;
+    let angle = SQRT_2 * FRAC_PI_2 / side as f32;
     let middle = found[(side * side / 2) as usize];
-    assert!((middle / (diagonal * std::f32::consts::FRAC_PI_4) - 1.0).abs() < 2e-3, "{middle}");
+    let expected = DISTANCE * (angle + angle.powi(3) / 3.0);
+    assert!((middle / expected - 1.0).abs() < 1e-5, "{middle} {expected}");
     // Proportional to the distance from the primary light.
     let corner = found[0] / middle;
     let farther = (2.0 * (1.0 - 1.0 / side as f32).powi(2) + 1.0).sqrt();
     assert!((corner / farther - 1.0).abs() < 1e-5, "{corner} {farther}");
+}
+
+/// Parallel light has no angle: the diagonal of a cell, which need not be square.
+#[test]
+fn field_of_view_of_parallel_light() {
+    let axes = [2.0 * Vec3::X, 3.0 * Vec3::Y, Vec3::Z];
+    let projection = Projection::orthographic(Vec3::ZERO, axes, [4; 2], 10.0);
+    let light = Light::Directional { direction: Vec3::Z, irradiance: Vec3::ONE };
+    let lights = lit(4, |_, at| Some(at)).lights;
+    let (found, _) = radii(
+        &scene(),
+        &[LitMap { map: Map { projection, light }, lights }],
+        RadiusRule::FieldOfView,
+    );
+    let expected = 1.0_f32.hypot(1.5);
+    assert!(found.iter().all(|radius| (radius / expected - 1.0).abs() < 1e-6), "{found:?}");
 }
 
 #[test]

@@ -43,6 +43,11 @@ pub(crate) fn distance(seconds: f64, target: f64) -> f64 {
     (seconds / target).ln().abs()
 }
 
+/// Part of the target by which a time is off.
+pub(crate) fn miss(seconds: f64, target: f64) -> f64 {
+    (seconds / target - 1.0).abs()
+}
+
 /// The next amount, from tries in the order of their distance to the target.
 fn proposal(tried: &[(u64, f64)], target: f64) -> u64 {
     let (amount, seconds) = (tried[0].0 as f64, tried[0].1);

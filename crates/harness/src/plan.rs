@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use manylights_method::{Method, Parameters};
+use std::ops::RangeInclusive;
+
+use manylights_method::{Method, ParameterKind, Parameters, Visibility};
 use serde::{Deserialize, Serialize};
 
 use crate::numbers::milliseconds;
@@ -30,6 +32,8 @@ pub(crate) struct Variant {
     /// The parameter along which a curve runs: the first one declared that the experiment sweeps,
     /// else the cost parameter.
     pub(crate) swept: &'static str,
+    /// Of the last segment.
+    pub(crate) visibility: Visibility,
     /// What it may cost.
     pub(crate) budget: Budget,
 }
@@ -50,6 +54,16 @@ impl Variant {
         self.text(|name| name != self.swept && !self.is_searched(name))
     }
 
+    /// What the cost parameter may be.
+    pub(crate) fn cost_range(&self) -> RangeInclusive<u64> {
+        let cost = self.method.cost_parameter();
+        let declared = self.method.parameters().iter().find(|info| info.name == cost);
+        match declared.map(|info| info.kind) {
+            Some(ParameterKind::Count { min, max, .. }) => min..=max,
+            _ => unreachable!("a test of the registry holds cost parameters to be counts"),
+        }
+    }
+
     /// Whether the value of a parameter is found by the harness.
     pub(crate) fn is_searched(&self, name: &str) -> bool {
         self.budget != Budget::Count && name == self.method.cost_parameter()
@@ -61,6 +75,11 @@ impl Variant {
         given.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
+    /// The visibility, where it is not the method's own.
+    pub(crate) fn unusual_visibility(&self) -> Option<Visibility> {
+        Some(self.visibility).filter(|&visibility| visibility != self.method.visibility())
+    }
+
     fn text(&self, wanted: impl Fn(&str) -> bool) -> String {
         let default = Parameters::new(self.method.parameters(), []).expect("nothing to refuse");
         let mut words = vec![self.method.id().to_owned()];
@@ -69,6 +88,7 @@ impl Variant {
                 words.push(format!("{name}={value}"));
             }
         }
+        words.extend(self.unusual_visibility().map(|chosen| format!("visibility={chosen}")));
         words.join(" ")
     }
 }
@@ -77,6 +97,7 @@ impl PartialEq for Variant {
     fn eq(&self, other: &Self) -> bool {
         self.method.id() == other.method.id()
             && self.parameters == other.parameters
+            && self.visibility == other.visibility
             && self.budget == other.budget
     }
 }

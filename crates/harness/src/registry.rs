@@ -32,6 +32,8 @@ pub(crate) fn position(id: &str) -> usize {
 mod tests {
     use std::collections::BTreeSet;
 
+    use manylights_method::ParameterKind;
+
     use super::*;
 
     fn well_formed(name: &str) -> bool {
@@ -56,6 +58,16 @@ mod tests {
                 assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
                 assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
             }
+        }
+    }
+
+    #[test]
+    fn cost_parameters_are_counts() {
+        for method in METHODS {
+            let cost = method.cost_parameter();
+            let declared = method.parameters().iter().find(|info| info.name == cost);
+            let kind = declared.map(|info| info.kind);
+            assert!(matches!(kind, Some(ParameterKind::Count { .. })), "{} {cost}", method.id());
         }
     }
 

@@ -1,18 +1,17 @@
 //! What moved between two sets of cells of the same experiment.
 //!
-//! Three classes: counts and pictures are deterministic, and compared bit for bit where processor,
-//! system and driver are the same; errors are statistical, and compared by their spread over seeds;
-//! times are never compared here.
+//! Counts and pictures are deterministic, and compared bit for bit where processor, system and driver
+//! are the same. Counts and errors are compared everywhere, seed by seed: the spread over seeds, which
+//! is far larger than a regression, cancels. Times are never compared here.
 
 use std::collections::BTreeMap;
 
 use crate::cell::{Cell, Done, Outcome};
 use crate::provenance::Provenance;
 
-/// Differences of errors below this part of their size are rounding of other processors.
+/// Differences below this part of a number are rounding of other processors and drivers: a choice,
+/// for want of a second driver to measure it on.
 const ROUNDING: f64 = 1e-3;
-/// Standard errors that a mean may move by chance.
-const SIGMAS: f64 = 4.0;
 
 /// A quantity that moved.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -86,8 +85,7 @@ fn compare_group(name: &str, before: &Group<'_>, now: &Group<'_>, moved: &mut Ve
     if let Some((a, b)) = changed(&|cell, _| cell.inputs.scene_content.clone()) {
         moved.push(row(name, "scene", &a[..12], &b[..12], "the scene is another one"));
     }
-    let exact = pairs.iter().all(|(old, _, new, _)| same_digits(&old.provenance, &new.provenance));
-    if exact {
+    if pairs.iter().all(|(old, _, new, _)| same_digits(&old.provenance, &new.provenance)) {
         let why = "deterministic on this processor and driver";
         if let Some((a, b)) = changed(&|_, done| format!("{:?}", done.counters)) {
             moved.push(row(name, "counts", &a, &b, why));
@@ -96,7 +94,37 @@ fn compare_group(name: &str, before: &Group<'_>, now: &Group<'_>, moved: &mut Ve
             moved.push(row(name, "picture", &a[..12], &b[..12], why));
         }
     }
-    compare_errors(name, &pairs, moved);
+    for (old, a, _, b) in pairs {
+        compare_numbers(name, old.inputs.seed, &numbers(a), &numbers(b), moved);
+    }
+}
+
+/// Counts and errors by name.
+fn numbers(done: &Done) -> BTreeMap<String, f64> {
+    let counts = done.counters.iter().map(|(name, &count)| (name.clone(), count as f64));
+    let errors = done.errors.iter();
+    let errors =
+        errors.map(|(reference, errors)| (format!("RMSE ({reference})"), errors.display.rmse));
+    counts.chain(errors).collect()
+}
+
+/// The same seed draws the same numbers everywhere: what is left between processors is rounding.
+fn compare_numbers(
+    name: &str,
+    seed: u64,
+    before: &BTreeMap<String, f64>,
+    now: &BTreeMap<String, f64>,
+    moved: &mut Vec<Moved>,
+) {
+    for (quantity, &a) in before {
+        let b = now.get(quantity).copied().unwrap_or(f64::NAN);
+        let within = (b - a).abs() <= ROUNDING * a.abs();
+        if !within {
+            let why = format!("by {:+.2} %, where rounding explains 0.1 %", 100.0 * (b / a - 1.0));
+            let quantity = format!("{quantity}, seed {seed}");
+            moved.push(row(name, &quantity, &format!("{a:.6}"), &format!("{b:.6}"), &why));
+        }
+    }
 }
 
 fn words(outcome: &Outcome) -> String {
@@ -108,7 +136,7 @@ fn words(outcome: &Outcome) -> String {
 }
 
 /// Whether the same program gives the same bits in both places.
-fn same_digits(a: &Provenance, b: &Provenance) -> bool {
+pub(crate) fn same_digits(a: &Provenance, b: &Provenance) -> bool {
     let driver = |p: &Provenance| {
         let fields = ["name", "driver", "driver_info"];
         p.adapter.as_ref().map(|adapter| fields.map(|field| adapter[field].clone()))
@@ -116,38 +144,82 @@ fn same_digits(a: &Provenance, b: &Provenance) -> bool {
     (&a.system, &a.cpu) == (&b.system, &b.cpu) && driver(a) == driver(b)
 }
 
-fn compare_errors(name: &str, pairs: &[(&Cell, &Done, &Cell, &Done)], moved: &mut Vec<Moved>) {
-    let Some((_, first, ..)) = pairs.first() else { return };
-    for reference in first.errors.keys() {
-        let rmse = |done: &Done| Some(done.errors.get(reference)?.display.rmse);
-        let before = Sample::new(pairs.iter().filter_map(|(_, a, ..)| rmse(a)));
-        let now = Sample::new(pairs.iter().filter_map(|(.., b)| rmse(b)));
-        let allowed = SIGMAS * before.error.hypot(now.error) + ROUNDING * before.mean;
-        if (now.mean - before.mean).abs() > allowed {
-            moved.push(Moved {
-                cell: name.to_owned(),
-                quantity: format!("RMSE ({reference})"),
-                before: format!("{:.5}", before.mean),
-                now: format!("{:.5}", now.mean),
-                why: format!("more than {allowed:.5}, what {} seeds let expect", pairs.len()),
-            });
-        }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cell::{Comparison, Inputs};
+    use crate::plan::Budget;
+    use manylights_metrics::Errors;
+
+    fn cell(seed: u64, rmse: f64, program: &str) -> Cell {
+        let [mse, mae, psnr, ssim, rel_mse, smape, rel_p999] = [0.0; 7];
+        let errors = Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999 };
+        let comparison =
+            Comparison { linear: errors, display: errors, linear_floor: 0.0, display_floor: 0.0 };
+        let done = Done {
+            amount: 4,
+            visibility: None,
+            prepare_seconds: 0.0,
+            step_seconds: 1.0,
+            pass_seconds: BTreeMap::new(),
+            counters: BTreeMap::from([("lights".into(), 1000)]),
+            image_sha256: format!("{rmse:064}"),
+            errors: BTreeMap::from([("traced".into(), comparison)]),
+            checkpoints: Vec::new(),
+        };
+        let inputs = Inputs {
+            scene: "s".into(),
+            scene_content: "0123456789abcdef".into(),
+            method: "m".into(),
+            parameters: BTreeMap::new(),
+            budget: Budget::Count,
+            seed,
+            repetition: 0,
+            transport: "all".into(),
+            visibility: None,
+            resolution: [16, 16],
+            exposure: 1.0,
+            references: BTreeMap::new(),
+        };
+        let provenance = Provenance { cpu: program.into(), ..Provenance::here(None) };
+        let key = inputs.key(&provenance);
+        Cell { key, inputs, outcome: Outcome::Done(Box::new(done)), provenance }
     }
-}
 
-/// Mean and its standard error.
-struct Sample {
-    mean: f64,
-    error: f64,
-}
+    fn quantities(before: &[Cell], now: &[Cell]) -> Vec<String> {
+        compare(before, now).into_iter().map(|moved| moved.quantity).collect()
+    }
 
-impl Sample {
-    fn new(values: impl Iterator<Item = f64>) -> Self {
-        let values: Vec<f64> = values.collect();
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-        let error = if n > 1.0 { (squares / (n - 1.0) / n).sqrt() } else { 0.0 };
-        Self { mean, error }
+    #[test]
+    fn on_the_same_processor_every_bit_counts() {
+        let [a, b] = [cell(1, 0.5, "here"), cell(1, 0.5 + 1e-9, "here")];
+        assert_eq!(quantities(std::slice::from_ref(&a), std::slice::from_ref(&a)), [""; 0]);
+        assert_eq!(quantities(&[a], &[b]), ["picture"]);
+    }
+
+    #[test]
+    fn on_another_processor_errors_may_round() {
+        let before = [cell(1, 0.5, "here"), cell(2, 0.7, "here")];
+        let rounded = [cell(1, 0.5 + 1e-6, "there"), cell(2, 0.7 - 1e-6, "there")];
+        assert_eq!(quantities(&before, &rounded), [""; 0]);
+        // Far less than the spread over seeds, and still seen.
+        let wrong = [cell(1, 0.502, "there"), cell(2, 0.7, "there")];
+        assert_eq!(quantities(&before, &wrong), ["RMSE (traced), seed 1"]);
+        let mut broken = cell(2, 0.7, "there");
+        if let Outcome::Done(done) = &mut broken.outcome {
+            done.counters.insert("lights".into(), 1010);
+        }
+        let now = [cell(1, 0.5, "there"), broken];
+        assert_eq!(quantities(&before, &now), ["lights, seed 2"]);
+        assert_eq!(quantities(&before, &[cell(1, 0.5, "there")]), ["seed 2"]);
+    }
+
+    #[test]
+    fn outcomes_and_cells_that_come_and_go_are_named() {
+        let a = cell(1, 0.5, "here");
+        let declined = Cell { outcome: Outcome::Declined { reason: "no".into() }, ..a.clone() };
+        assert_eq!(quantities(std::slice::from_ref(&a), &[declined]), ["outcome"]);
+        assert_eq!(quantities(std::slice::from_ref(&a), &[]), ["cell"]);
+        assert_eq!(quantities(&[], &[a]), ["cell"]);
     }
 }

@@ -7,7 +7,7 @@ use manylights_method::{Error, Processor, Run};
 use manylights_metrics::RadianceImage;
 
 use crate::cell::{Cell, Checkpoint, Done, Inputs, Outcome, image_sha256};
-use crate::error::{Failure, one_line};
+use crate::error::Failure;
 use crate::measure::{self, Look, Measured};
 use crate::plan::{Turn, Variant};
 use crate::progress::Progress;
@@ -28,6 +28,8 @@ pub(crate) struct SceneRun<'s, 'a> {
     pub(crate) references: &'s [SceneReference],
     /// Of each variant, the value of the cost parameter that its time budget was found to allow.
     pub(crate) amounts: Vec<Option<u64>>,
+    /// The variants whose time budgets no amount could be found for, and why.
+    pub(crate) refused: BTreeMap<usize, Outcome>,
     /// Whether any cell was not in the journal.
     pub(crate) ran: bool,
 }
@@ -56,7 +58,7 @@ impl SceneRun<'_, '_> {
             }
             if !std::mem::replace(&mut warm[turn.variant], true) {
                 self.warm_up(turn);
-                self.find_amount(turn)?;
+                self.find_amount(turn);
             }
             self.ran = true;
             let outcome = self.outcome(turn, &key, &cells)?;
@@ -122,11 +124,11 @@ impl SceneRun<'_, '_> {
         look: Look<'_>,
     ) -> Result<Measured, Error> {
         let experiment = self.session.experiment;
-        let Variant { method, parameters, .. } = &experiment.variants[turn.variant];
+        let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
         let frame = self.stage.frame(experiment.transport, turn.seed);
         let set = |amount| parameters.with_count(method.cost_parameter(), amount);
         let parameters = amount.map_or_else(|| parameters.clone(), set);
-        measure::measure(*method, &frame, None, &parameters, look)
+        measure::measure(*method, &frame, *visibility, &parameters, look)
     }
 
     /// As [`Self::measure`], looked at whenever the work has doubled, where the method is progressive.
@@ -155,12 +157,12 @@ impl SceneRun<'_, '_> {
     }
 
     fn outcome(&self, turn: Turn, key: &str, earlier: &[(Turn, Cell)]) -> Result<Outcome, Failure> {
+        if let Some(refused) = self.refused.get(&turn.variant) {
+            return Ok(refused.clone());
+        }
         let (measured, checkpoints) = match self.measure_with_checkpoints(turn) {
             Ok(measured) => measured,
-            Err(Error::Declined(reason)) => {
-                return Ok(Outcome::Declined { reason: one_line(&reason) });
-            }
-            Err(Error::Failed(reason)) => return Ok(Outcome::Failed { reason: one_line(&reason) }),
+            Err(error) => return Ok(Outcome::refused(error)),
         };
         if turn.repetition == 0 {
             self.write_image(&measured, key)?;

@@ -1,5 +1,6 @@
 //! A run of an experiment: what its scenes share, and what comes out of each.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use manylights_gpu::Gpu;
@@ -95,6 +96,7 @@ impl<'a> Session<'a> {
             content,
             references: &references,
             amounts,
+            refused: BTreeMap::new(),
             ran: false,
         };
         let mut cells = run.turns(&turns)?;

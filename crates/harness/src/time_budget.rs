@@ -1,9 +1,9 @@
 //! Time budgets: how much work each variant may do on a scene.
 
-use manylights_method::{Error, ParameterKind};
+use manylights_method::Error;
 
 use crate::cell::{Cell, Inputs, Outcome};
-use crate::equal_time::{self, distance};
+use crate::equal_time::{self, distance, miss};
 use crate::error::Failure;
 use crate::plan::{Budget, Turn};
 use crate::provenance::Provenance;
@@ -41,34 +41,40 @@ impl SceneRun<'_, '_> {
             });
     }
 
-    /// Searches the amount of a variant with a time budget that has none yet. What the method
-    /// declines or fails at is left to the run by the clock, where it is recorded.
-    ///
-    /// # Errors
-    /// One line where the baseline that sets the time cannot run.
-    pub(crate) fn find_amount(&mut self, turn: Turn) -> Result<(), Failure> {
+    /// Searches the amount of a variant with a time budget that has none yet. Where a try or the
+    /// baseline that sets the time is declined or fails, so are the variant's cells.
+    pub(crate) fn find_amount(&mut self, turn: Turn) {
+        let variant = &self.session.experiment.variants[turn.variant];
+        if variant.budget == Budget::Count || self.amounts[turn.variant].is_some() {
+            return;
+        }
+        match self.search(turn) {
+            Ok(amount) => self.amounts[turn.variant] = Some(amount),
+            Err(error) => {
+                self.refused.insert(turn.variant, Outcome::refused(error));
+            }
+        }
+    }
+
+    fn search(&self, turn: Turn) -> Result<u64, Error> {
         let experiment = self.session.experiment;
         let variant = &experiment.variants[turn.variant];
         let target = match variant.budget {
-            Budget::Count => return Ok(()),
-            _ if self.amounts[turn.variant].is_some() => return Ok(()),
+            Budget::Count => unreachable!("a count is not searched for"),
             Budget::Seconds(seconds) => seconds,
             Budget::Baseline => {
-                let baseline = Turn { variant: experiment.baseline, ..turn };
-                self.seconds(baseline, None).map_err(|error| {
-                    Failure::Failed(format!("the baseline, which sets the time budget: {error}"))
-                })?
+                let told = |reason| format!("the baseline, which sets the time: {reason}");
+                self.seconds(Turn { variant: experiment.baseline, ..turn }, None).map_err(
+                    |error| match error {
+                        Error::Declined(reason) => Error::Declined(told(reason)),
+                        Error::Failed(reason) => Error::Failed(told(reason)),
+                    },
+                )?
             }
         };
-        let cost = variant.method.cost_parameter();
-        let declared = variant.method.parameters().iter().find(|info| info.name == cost);
-        let Some(ParameterKind::Count { min, max, .. }) = declared.map(|info| info.kind) else {
-            unreachable!("the registry's tests hold cost parameters to be counts");
-        };
-        let start = variant.parameters.count(cost);
+        let start = variant.parameters.count(variant.method.cost_parameter());
         let measured = |amount| self.time(turn, amount, target);
-        self.amounts[turn.variant] = equal_time::search(target, min..=max, start, measured).ok();
-        Ok(())
+        equal_time::search(target, variant.cost_range(), start, measured)
     }
 
     /// One run where the time is far from `target`, the median of some where it is near.
@@ -122,8 +128,10 @@ impl SceneRun<'_, '_> {
         };
         let seconds = median_seconds(variant, cells)?;
         let amount = self.amounts[variant]?;
-        let better = ((amount as f64 * target / seconds).round() as u64).max(1);
-        (distance(seconds, target) > TOLERANCE && better != amount).then_some(better)
+        let range = self.session.experiment.variants[variant].cost_range();
+        let better = (amount as f64 * target / seconds).round() as u64;
+        let better = better.clamp(*range.start(), *range.end());
+        (miss(seconds, target) > TOLERANCE && better != amount).then_some(better)
     }
 }
 

@@ -1,30 +1,34 @@
 //! What methods that gather virtual lights have in common, but for the estimator.
 
-use manylights_gpu::{GpuFrame, LightBatches, LightGather};
+use manylights_gpu::{GpuFrame, LightBatches, LightGather, Shadows};
 use manylights_metrics::RadianceImage;
 
 use crate::{Error, Frame, PassTime, Progress, Run, Transport, Visibility};
 
-/// The frame on the adapter, where it is one that virtual lights without shadow test can render: one
-/// indirect bounce of point-like primary lights, `visibility = ignored`.
+/// The frame on the adapter, where it is one that virtual lights can render (one indirect bounce of
+/// point-like primary lights), and the shadow rays that the transport wants.
 ///
 /// # Errors
 /// [`Error::Declined`] with the reason.
-pub fn many_light_frame<'a>(frame: &Frame<'a>) -> Result<&'a GpuFrame, Error> {
+pub fn many_light_frame<'a>(frame: &Frame<'a>) -> Result<(&'a GpuFrame, Option<Shadows>), Error> {
     let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
     let Transport::Indirect { bounces: 1, visibility } = frame.transport else {
         return declined("computes one indirect bounce: use --transport indirect-1");
     };
-    if visibility == Visibility::Traced {
-        return declined("has no shadow test for its last segment: use --visibility ignored");
-    }
     if frame.scene.emissive_triangles().next().is_some() {
         return declined("needs point-like primary lights; this scene has emissive triangles");
     }
     if frame.scene.lights.is_empty() {
         return declined("needs a point, spot or directional light; this scene has none");
     }
-    frame.gpu.ok_or_else(|| Error::Failed("runs on the adapter and was given none".into()))
+    let Some(on_gpu) = frame.gpu else {
+        return Err(Error::Failed("runs on the adapter and was given none".into()));
+    };
+    let shadows = match visibility {
+        Visibility::Traced => Some(Shadows::new(on_gpu, frame.scene)?),
+        Visibility::Ignored => None,
+    };
+    Ok((on_gpu, shadows))
 }
 
 /// The lights of a picture on the adapter, and the passes that placed them there.
@@ -36,7 +40,7 @@ pub struct ManyLightRun<'a> {
     frame: &'a GpuFrame,
     gather: LightGather,
     batches_a_step: usize,
-    place: Box<dyn Fn() -> PlacedLights + 'a>,
+    place: Box<dyn Fn(&LightGather) -> PlacedLights + 'a>,
     placed: Option<LightBatches>,
     next: usize,
     times: Vec<PassTime>,
@@ -49,7 +53,7 @@ impl<'a> ManyLightRun<'a> {
         frame: &'a GpuFrame,
         gather: LightGather,
         batches_a_step: usize,
-        place: impl Fn() -> PlacedLights + 'a,
+        place: impl Fn(&LightGather) -> PlacedLights + 'a,
     ) -> Self {
         Self {
             frame,
@@ -78,7 +82,7 @@ impl Run for ManyLightRun<'_> {
         let batches = match self.placed.take() {
             Some(batches) => batches,
             None => {
-                let (batches, times) = (self.place)()?;
+                let (batches, times) = (self.place)(&self.gather)?;
                 self.add_times(&times);
                 batches
             }

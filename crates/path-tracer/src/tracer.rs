@@ -199,6 +199,10 @@ impl Walk<'_> {
         let next = tracer.scene.surface(hit.triangle, hit.u, hit.v, ray.direction);
         let offset = next.position - point.position;
         let distance2 = offset.length_squared();
+        // No direction: neither normal faces it.
+        if distance2 == 0.0 {
+            return Vec3::ZERO;
+        }
         let to_next = offset / distance2.sqrt();
         let cos_next = -next.geometric_normal.dot(to_next);
         if cos_next <= 0.0 {
@@ -207,7 +211,7 @@ impl Walk<'_> {
         let at = tracer.scene.lights[light].illuminate(next.position);
         let lobes = Lobes::new(point, to_viewer);
         let radiance = reflected(&next, -to_next, &at) * lobes.reflect(to_next);
-        if radiance == Vec3::ZERO || !self.connected(point, &next, to_next) {
+        if radiance == Vec3::ZERO || !self.connected(point, &next) {
             return Vec3::ZERO;
         }
         let density = lobes.density(to_next) * cos_next / distance2;
@@ -216,15 +220,16 @@ impl Walk<'_> {
     }
 
     /// Whether the segment of a path that starts at a light may carry light to `point`.
-    fn connected(&mut self, point: &SurfacePoint, next: &SurfacePoint, to_next: Vec3) -> bool {
+    fn connected(&mut self, point: &SurfacePoint, next: &SurfacePoint) -> bool {
         if self.tracer.visibility == Visibility::Ignored {
             return true;
         }
-        if point.geometric_normal.dot(to_next) <= 0.0 {
+        if point.geometric_normal.dot(next.position - point.position) <= 0.0 {
             return false;
         }
-        let target = self.tracer.bvh.shifted(next.position, next.geometric_normal);
-        !self.occluded(&Ray::between(self.origin(point, to_next), target))
+        self.rays += 1;
+        let [from, to] = [point, next].map(|point| [point.position, point.geometric_normal]);
+        self.tracer.bvh.sees(from, to)
     }
 
     /// Direct illumination by emissive triangles through a point on one of them; `shared` where a
@@ -240,6 +245,10 @@ impl Walk<'_> {
         let emitter = self.tracer.emitters.sample(numbers);
         let offset = emitter.position - point.position;
         let distance2 = offset.length_squared();
+        // No direction: neither normal faces it.
+        if distance2 == 0.0 {
+            return Vec3::ZERO;
+        }
         let direction = offset / distance2.sqrt();
         let cos_emitter = -emitter.normal.dot(direction);
         if cos_emitter <= 0.0 || point.geometric_normal.dot(direction) <= 0.0 {

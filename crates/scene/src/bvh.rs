@@ -11,6 +11,8 @@ use glam::Vec3;
 use crate::Scene;
 use wide::Wide;
 
+pub use wide::BvhWords;
+
 /// A ray, or a segment of one. `direction` need not be unit; distances are in its lengths.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
@@ -90,6 +92,28 @@ impl Bvh {
     /// geometric) points, so that rays that leave on this side do not meet the surface again.
     pub fn shifted(&self, position: Vec3, normal: Vec3) -> Vec3 {
         position + self.shift * normal
+    }
+
+    /// How far [`Bvh::shifted`] shifts, metres.
+    pub fn shift(&self) -> f32 {
+        self.shift
+    }
+
+    /// The hierarchy for shaders.
+    pub fn words(&self) -> BvhWords {
+        self.wide.words()
+    }
+
+    /// Whether two points on surfaces see each other; each with the unit geometric normal of the side
+    /// that is asked for. A surface hides what is behind it.
+    pub fn sees(&self, [from, from_normal]: [Vec3; 2], [to, to_normal]: [Vec3; 2]) -> bool {
+        let offset = to - from;
+        from_normal.dot(offset) > 0.0
+            && to_normal.dot(offset) < 0.0
+            && !self.occluded(&Ray::between(
+                self.shifted(from, from_normal),
+                self.shifted(to, to_normal),
+            ))
     }
 
     /// The nearest hit.

@@ -2,7 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Error, Gpu, LightBatches, LightGather, VirtualLight, link};
+use manylights_gpu::{
+    Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, VirtualLight, link,
+};
 
 use crate::Settings;
 use crate::light_record::{GlossyLight, LambertLight};
@@ -21,6 +23,7 @@ const PIXELS_A_GROUP: u32 = 256;
 pub fn linked_shader(
     glossy_receivers: bool,
     glossy_lights: bool,
+    traced: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
@@ -28,6 +31,7 @@ pub fn linked_shader(
         ("glossy_lights", glossy_lights),
         ("clamped", settings.clamp.is_some()),
         ("attenuated", settings.radius.is_some()),
+        ("traced", traced),
     ];
     link("gather", include_str!("shaders/gather.wesl"), &[], &features)
 }
@@ -46,12 +50,20 @@ struct View {
 ///
 /// # Errors
 /// Where the adapter refuses.
-pub(crate) fn batches(gpu: &Gpu, lights: &[VirtualLight]) -> Result<LightBatches, Error> {
+pub(crate) fn batches(
+    gather: &LightGather,
+    lights: &[VirtualLight],
+) -> Result<LightBatches, Error> {
     let (glossy, lambert): (Vec<_>, Vec<_>) =
         lights.iter().partition(|light| light.brdf.has_specular());
+    let centers = [&lambert, &glossy]
+        .map(|lights| lights.iter().copied().map(Center::from).collect::<Vec<_>>());
     let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
     let glossy: Vec<_> = glossy.into_iter().map(GlossyLight::new).collect();
-    LightBatches::new(gpu, (&lambert, LAMBERT_CAPACITY), (&glossy, GLOSSY_CAPACITY))
+    gather.batches(
+        &Lights { records: &lambert, centers: &centers[0], capacity: LAMBERT_CAPACITY },
+        &Lights { records: &glossy, centers: &centers[1], capacity: GLOSSY_CAPACITY },
+    )
 }
 
 /// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
@@ -64,6 +76,7 @@ pub(crate) fn gather(
     camera: Vec3,
     specular: bool,
     settings: &Settings,
+    shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     let radius = settings.radius.unwrap_or(0.0);
     let view = View {
@@ -73,7 +86,11 @@ pub(crate) fn gather(
         radius2: radius * radius,
         padding: [0; 2],
     };
-    let wgsl =
-        [linked_shader(specular, false, settings)?, linked_shader(specular, specular, settings)?];
-    LightGather::new(gpu, pixels, PIXELS_A_GROUP, &view, wgsl.each_ref().map(String::as_str))
+    let traced = shadows.is_some();
+    let wgsl = [
+        linked_shader(specular, false, traced, settings)?,
+        linked_shader(specular, specular, traced, settings)?,
+    ];
+    let wgsl = wgsl.each_ref().map(String::as_str);
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, Vec::new(), shadows)
 }

@@ -1,12 +1,12 @@
 //! Virtual point lights (Keller 1997), placed by reflective shadow maps (Dachsbacher and Stamminger
 //! 2005; thesis 5.1.2).
 //!
-//! One indirect bounce, without visibility between virtual light and shaded point:
+//! One indirect bounce:
 //!
-//! L(x, v) = Σ_j Φ_j f_x(v, ω_j) ⟨n_x·ω_j⟩ f_j(ω_p, −ω_j) ⟨n_j·−ω_j⟩ / d_j²
+//! L(x, v) = Σ_j V(x, y_j) Φ_j f_x(v, ω_j) ⟨n_x·ω_j⟩ f_j(ω_p, −ω_j) ⟨n_j·−ω_j⟩ / d_j²
 //!
-//! with Φ_j = I(ω) Δω the flux of the light's cell. It converges to the reference with
-//! `visibility = ignored`; the distance to the `traced` one is the price of the missing shadows.
+//! with Φ_j = I(ω) Δω the flux of the light's cell, and V the visibility between virtual light and
+//! shaded point, or 1 with `visibility = ignored`. It converges to the reference of the same visibility.
 //!
 //! Deviations from the papers: each light carries its cell's exact solid angle, not power/count; the
 //! emitting cosine is that of the geometric normal (see [`manylights_gpu::VirtualLight::flux`]).
@@ -20,9 +20,10 @@ pub mod oracle;
 mod params;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, SurfaceRecord, VirtualLight, distribute};
+use manylights_gpu::{Gpu, LightGather, SurfaceRecord, VirtualLight, distribute};
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
+    many_light_frame,
 };
 
 use gather::LAMBERT_CAPACITY;
@@ -30,8 +31,8 @@ use gather::LAMBERT_CAPACITY;
 pub use gather::linked_shader;
 pub use params::Settings;
 
-/// Pairs of light and pixel in one submission: about a second on a slow processor, far below any
-/// watchdog on a fast one.
+/// Pairs of light and pixel in one submission, about a second on a slow processor, where a batch has
+/// fewer; a batch is never cut.
 const PAIRS_A_STEP: u64 = 1 << 28;
 
 /// The method.
@@ -58,6 +59,10 @@ impl Method for Vpl {
         "lights"
     }
 
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
     /// Half of the lights is half of the flux.
     fn is_progressive(&self) -> bool {
         false
@@ -68,17 +73,18 @@ impl Method for Vpl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        let on_gpu = many_light_frame(frame)?;
+        let (on_gpu, shadows) = many_light_frame(frame)?;
         let settings = Settings::new(parameters);
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
-        let gather = gather::gather(gpu, pixels, camera.position, scene.has_specular(), &settings)?;
+        let specular = scene.has_specular();
+        let gather = gather::gather(gpu, pixels, camera.position, specular, &settings, shadows)?;
         let pairs_a_batch = u64::from(pixels) * LAMBERT_CAPACITY as u64;
         let batches_a_step = (PAIRS_A_STEP / pairs_a_batch) as usize;
-        let place = move || {
+        let place = move |gather: &LightGather| {
             let (lights, times) = distribute(on_gpu, scene, settings.lights, seed)?;
-            Ok((gather::batches(gpu, &lights)?, times))
+            Ok((gather::batches(gather, &lights)?, times))
         };
         Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
     }
@@ -98,8 +104,8 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
         || lights.iter().any(|light| light.brdf.has_specular());
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings)?;
-    let batches = gather::batches(gpu, lights)?;
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings, None)?;
+    let batches = gather::batches(&gather, lights)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()
 }

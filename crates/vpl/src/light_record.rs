@@ -59,9 +59,7 @@ impl GlossyLight {
     pub(crate) fn new(light: &VirtualLight) -> Self {
         let brdf = &light.brdf;
         let view_n = light.normal.dot(light.incoming);
-        let across = light.incoming - view_n * light.normal;
-        let tangent =
-            across.try_normalize().unwrap_or_else(|| light.normal.any_orthonormal_vector());
+        let tangent = light.tangent();
         let alpha2 = brdf.alpha * brdf.alpha;
         let transmission = brdf.transmission(view_n);
         Self {

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Error, Gpu, LightBatches, LightGather, link};
+use manylights_gpu::{Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, link};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{GaussianLight, Settings, SpecularLobe};
@@ -20,12 +20,14 @@ const PIXELS_A_GROUP: u32 = 64;
 pub fn linked_shader(
     glossy_receivers: bool,
     glossy_lights: bool,
+    traced: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
         ("glossy_receivers", glossy_receivers),
         ("glossy_lights", glossy_lights),
         ("filtered", settings.lobe == SpecularLobe::Filtered),
+        ("traced", traced),
     ];
     let modules = [
         ("gaussian", include_str!("shaders/gaussian.wesl")),
@@ -45,12 +47,22 @@ struct View {
 ///
 /// # Errors
 /// Where the adapter refuses.
-pub(crate) fn batches(gpu: &Gpu, lights: &[GaussianLight]) -> Result<LightBatches, Error> {
+pub(crate) fn batches(
+    gather: &LightGather,
+    lights: &[GaussianLight],
+) -> Result<LightBatches, Error> {
     let (glossy, lambert): (Vec<_>, Vec<_>) =
         lights.iter().partition(|light| light.has_specular());
+    let centers = [&lambert, &glossy].map(|lights| {
+        let center = |light: &&GaussianLight| Center::new(light.center, light.geometric_normal);
+        lights.iter().map(center).collect::<Vec<_>>()
+    });
     let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
     let glossy: Vec<_> = glossy.into_iter().map(GlossyLight::new).collect();
-    LightBatches::new(gpu, (&lambert, LAMBERT_CAPACITY), (&glossy, GLOSSY_CAPACITY))
+    gather.batches(
+        &Lights { records: &lambert, centers: &centers[0], capacity: LAMBERT_CAPACITY },
+        &Lights { records: &glossy, centers: &centers[1], capacity: GLOSSY_CAPACITY },
+    )
 }
 
 /// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
@@ -63,9 +75,14 @@ pub(crate) fn gather(
     camera: Vec3,
     specular: bool,
     settings: &Settings,
+    shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     let view = View { camera, pixels };
-    let wgsl =
-        [linked_shader(specular, false, settings)?, linked_shader(specular, specular, settings)?];
-    LightGather::new(gpu, pixels, PIXELS_A_GROUP, &view, wgsl.each_ref().map(String::as_str))
+    let traced = shadows.is_some();
+    let wgsl = [
+        linked_shader(specular, false, traced, settings)?,
+        linked_shader(specular, specular, traced, settings)?,
+    ];
+    let wgsl = wgsl.each_ref().map(String::as_str);
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, Vec::new(), shadows)
 }

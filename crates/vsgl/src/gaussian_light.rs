@@ -29,6 +29,16 @@ pub struct Lobe {
     pub padding: f32,
 }
 
+/// The lit texel of a group that is nearest to its mean place.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct Center {
+    position: Vec3,
+    padding0: f32,
+    geometric_normal: Vec3,
+    padding1: f32,
+}
+
 /// What stands for one group of texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussianLight {
@@ -36,6 +46,11 @@ pub struct GaussianLight {
     pub diffuse: Lobe,
     /// Of the specular lobes.
     pub specular: Lobe,
+    /// The lit texel that is nearest to the mean place, metres: what shadow rays aim at, since the mean
+    /// place may be inside a convex body.
+    pub center: Vec3,
+    /// Unit normal of that texel's triangle, on the lit side.
+    pub geometric_normal: Vec3,
 }
 
 impl GaussianLight {
@@ -113,10 +128,11 @@ fn filter(
     let kinds = if specular { 2 } else { 1 };
     let count = groups[0] as usize * groups[1] as usize;
     let lobes = gpu.zeroed("lobes", (count * kinds * size_of::<Lobe>()) as u64)?;
+    let centers = gpu.zeroed("centers", (count * size_of::<Center>()) as u64)?;
     let sides = gpu.uniform("groups", &[side, 0, 0, 0])?;
     let mut bindings = vec![Binding::Uniform, Binding::Storage, Binding::Storage];
-    bindings.push(Binding::StorageMut);
-    let mut buffers: Vec<&Buffer> = vec![&sides, &map.surfaces, &map.texels, &lobes];
+    bindings.extend([Binding::StorageMut; 2]);
+    let mut buffers: Vec<&Buffer> = vec![&sides, &map.surfaces, &map.texels, &lobes, &centers];
     let albedos = gpu.storage("albedos", if specular { ALBEDOS.as_slice() } else { &[] })?;
     if specular {
         bindings.push(Binding::Storage);
@@ -131,11 +147,13 @@ fn filter(
         workgroups: [groups[0], groups[1], 1],
     }])?;
     let lobes: Vec<Lobe> = gpu.read(&lobes)?;
-    let light = |group: &[Lobe]| {
+    let centers: Vec<Center> = gpu.read(&centers)?;
+    let light = |(group, center): (&[Lobe], &Center)| {
         let specular = group.get(1).copied().unwrap_or_else(Lobe::zeroed);
-        let light = GaussianLight { diffuse: group[0], specular };
+        let Center { position: center, geometric_normal, .. } = *center;
+        let light = GaussianLight { diffuse: group[0], specular, center, geometric_normal };
         let emits = light.has_specular() || light.diffuse.power != Vec3::ZERO;
         emits.then_some(light)
     };
-    Ok((lobes.chunks_exact(kinds).map(light).collect(), times))
+    Ok((lobes.chunks_exact(kinds).zip(&centers).map(light).collect(), times))
 }

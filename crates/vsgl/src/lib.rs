@@ -8,9 +8,10 @@ pub mod oracle;
 mod params;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, SurfaceRecord};
+use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
+    many_light_frame,
 };
 
 use gather::LAMBERT_CAPACITY;
@@ -47,6 +48,10 @@ impl Method for Vsgl {
         "lights"
     }
 
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
     /// Half of the lights is half of the flux.
     fn is_progressive(&self) -> bool {
         false
@@ -57,17 +62,18 @@ impl Method for Vsgl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        let on_gpu = many_light_frame(frame)?;
+        let (on_gpu, shadows) = many_light_frame(frame)?;
         let settings = Settings::new(parameters);
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
-        let gather = gather::gather(gpu, pixels, camera.position, scene.has_specular(), &settings)?;
+        let specular = scene.has_specular();
+        let gather = gather::gather(gpu, pixels, camera.position, specular, &settings, shadows)?;
         let pairs_a_batch = u64::from(pixels) * LAMBERT_CAPACITY as u64;
         let batches_a_step = (PAIRS_A_STEP / pairs_a_batch) as usize;
-        let place = move || {
+        let place = move |gather: &LightGather| {
             let (lights, times) = gaussian_lights(on_gpu, scene, &settings, seed)?;
-            Ok((gather::batches(gpu, &lights)?, times))
+            Ok((gather::batches(gather, &lights)?, times))
         };
         Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
     }
@@ -87,8 +93,8 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
         || lights.iter().any(GaussianLight::has_specular);
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings)?;
-    let batches = gather::batches(gpu, lights)?;
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings, None)?;
+    let batches = gather::batches(&gather, lights)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()
 }

@@ -14,7 +14,9 @@ use manylights_vsgl::{GaussianLight, Lobe, Settings, filter_group, gather, oracl
 const CAMERA: Vec3 = Vec3::new(0.6, 1.0, -0.2);
 
 fn both(lobe: Lobe) -> GaussianLight {
-    GaussianLight { diffuse: lobe, specular: Lobe { sharpness: 30.0 * lobe.sharpness, ..lobe } }
+    let specular = Lobe { sharpness: 30.0 * lobe.sharpness, ..lobe };
+    let (center, geometric_normal) = (lobe.position, lobe.axis);
+    GaussianLight { diffuse: lobe, specular, center, geometric_normal }
 }
 
 #[test]
@@ -182,10 +184,8 @@ fn the_unit_of_length_does_not_matter() {
 fn little_leaks_behind() {
     let receiver = surface(Vec3::ZERO, Vec3::Y, Brdf::lambert(Vec3::ONE));
     let value = |place: Vec3, axis: Vec3| {
-        let light = GaussianLight {
-            diffuse: lobe(place, axis, 2.2925, 1e-4),
-            specular: Lobe { power: Vec3::ZERO, ..lobe(place, axis, 1.0, 1.0) },
-        };
+        let mut light = both(lobe(place, axis, 2.2925, 1e-4));
+        light.specular.power = Vec3::ZERO;
         gather(&GPU, &[receiver], CAMERA, &[light], &SETTINGS).expect("a gather")[0][0]
     };
     let facing = value(Vec3::Y, Vec3::NEG_Y);

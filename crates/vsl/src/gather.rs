@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Error, Gpu, LightBatches, LightGather, link};
+use manylights_gpu::{Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, link};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{Settings, SphericalLight};
@@ -20,6 +20,7 @@ const PIXELS_A_GROUP: u32 = 64;
 pub fn linked_shader(
     glossy_receivers: bool,
     glossy_lights: bool,
+    traced: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
@@ -27,6 +28,7 @@ pub fn linked_shader(
         ("glossy_lights", glossy_lights),
         ("brdf_samples", settings.sampling.has_brdf()),
         ("cone_samples", settings.sampling.has_cone()),
+        ("traced", traced),
     ];
     let modules = [
         ("pair", include_str!("shaders/pair.wesl")),
@@ -49,18 +51,24 @@ struct View {
 /// # Errors
 /// Where the adapter refuses.
 pub(crate) fn batches(
-    gpu: &Gpu,
+    gather: &LightGather,
     lights: &[SphericalLight],
     seed: u64,
 ) -> Result<LightBatches, Error> {
     let indexed = lights.iter().enumerate();
     let (glossy, lambert): (Vec<_>, Vec<_>) =
         indexed.partition(|(_, sphere)| sphere.light.brdf.has_specular());
+    let centers = [&lambert, &glossy].map(|lights| {
+        lights.iter().map(|(_, sphere)| Center::from(&sphere.light)).collect::<Vec<_>>()
+    });
     let lambert: Vec<_> =
         lambert.into_iter().map(|(i, sphere)| LambertLight::new(i, sphere, seed)).collect();
     let glossy: Vec<_> =
         glossy.into_iter().map(|(i, sphere)| GlossyLight::new(i, sphere, seed)).collect();
-    LightBatches::new(gpu, (&lambert, CAPACITY), (&glossy, CAPACITY))
+    gather.batches(
+        &Lights { records: &lambert, centers: &centers[0], capacity: CAPACITY },
+        &Lights { records: &glossy, centers: &centers[1], capacity: CAPACITY },
+    )
 }
 
 /// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
@@ -73,9 +81,14 @@ pub(crate) fn gather(
     camera: Vec3,
     specular: bool,
     settings: &Settings,
+    shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     let view = View { camera, pixels, samples: settings.samples, padding: [0; 3] };
-    let wgsl =
-        [linked_shader(specular, false, settings)?, linked_shader(specular, specular, settings)?];
-    LightGather::new(gpu, pixels, PIXELS_A_GROUP, &view, wgsl.each_ref().map(String::as_str))
+    let traced = shadows.is_some();
+    let wgsl = [
+        linked_shader(specular, false, traced, settings)?,
+        linked_shader(specular, specular, traced, settings)?,
+    ];
+    let wgsl = wgsl.each_ref().map(String::as_str);
+    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, Vec::new(), shadows)
 }

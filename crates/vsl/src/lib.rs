@@ -4,10 +4,10 @@
 //! distance to its centre, Ω the cone of half-angle a = asin(r/d) about it (a hemisphere inside the
 //! sphere), one indirect bounce is
 //!
-//! L(x, v) = Σ_j Φ_j/(π r_j²) ∫_Ω f_x(v, ω) ⟨n_x·ω⟩ f_j(ω_p, −ω) ⟨n_j·−ω⟩ dω
+//! L(x, v) = Σ_j V(x, y_j) Φ_j/(π r_j²) ∫_Ω f_x(v, ω) ⟨n_x·ω⟩ f_j(ω_p, −ω) ⟨n_j·−ω⟩ dω
 //!
-//! without visibility between light and shaded point. Nothing depends on the place inside the sphere,
-//! only on the direction. With |Ω|/(πr²) = 2/(d² + d√(d² − r²)), which goes over into 2/r² inside the
+//! with V the visibility of the sphere's centre, or 1 with `visibility = ignored`. Nothing else depends
+//! on the place inside the sphere, only on the direction. With |Ω|/(πr²) = 2/(d² + d√(d² − r²)), which goes over into 2/r² inside the
 //! sphere and into the 1/d² of point lights for r → 0, samples of density p are summed as
 //!
 //! L = Φ |Ω|/(πr²) · 1/n Σ_i g(ω_i)/(p(ω_i) |Ω|),   g the integrand,
@@ -22,8 +22,9 @@
 //! Deviations from the papers:
 //! - The authors' shader also samples the light's own lobe, and takes more samples for wider cones;
 //!   here the count is the same for all.
-//! - Their shader drops a light whose centre is below a horizon; here the clamped cosines of each
-//!   direction decide, so nothing jumps where a sphere crosses a horizon. It also lessens πr² in
+//! - Their shader drops a light whose centre is below a horizon; here that is a matter of V, and with
+//!   `visibility = ignored` the clamped cosines of each direction decide, so nothing jumps where a
+//!   sphere crosses a horizon. It also lessens πr² in
 //!   corners, which the thesis does not.
 //! - As in `manylights-vpl`: exact solid angles of cells, the emitting cosine of the geometric normal.
 //! - Lights of radius 0 are points under every sampling.
@@ -36,7 +37,7 @@
 //! term, its key) is in the light's record; what does not depend on the light is kept by the lane.
 //!
 //! Bias: spheres darken concave surfaces, since a part of a wide cone is below one of the horizons; on
-//! the integrating sphere by 0.4 r/R (`tests/tests/vsl_truths.rs`).
+//! the integrating sphere by 4/(3π) r/R (`tests/tests/vsl_truths.rs`).
 
 mod gather;
 mod light_record;
@@ -46,9 +47,10 @@ mod params;
 mod spherical_light;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, SurfaceRecord};
+use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
+    many_light_frame,
 };
 
 use gather::CAPACITY;
@@ -57,8 +59,8 @@ pub use gather::linked_shader;
 pub use params::{Sampling, Settings};
 pub use spherical_light::{SphericalLight, spherical_lights};
 
-/// Directions in one submission: about a second on a slow processor, far below any watchdog on a fast
-/// one.
+/// Directions in one submission, about a second on a slow processor, where a batch has fewer; a batch
+/// is never cut.
 const DIRECTIONS_A_STEP: u64 = 1 << 26;
 
 /// The method.
@@ -85,6 +87,10 @@ impl Method for Vsl {
         "lights"
     }
 
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
     /// Half of the lights is half of the flux.
     fn is_progressive(&self) -> bool {
         false
@@ -95,17 +101,18 @@ impl Method for Vsl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        let on_gpu = many_light_frame(frame)?;
+        let (on_gpu, shadows) = many_light_frame(frame)?;
         let settings = Settings::new(parameters);
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
-        let gather = gather::gather(gpu, pixels, camera.position, scene.has_specular(), &settings)?;
+        let specular = scene.has_specular();
+        let gather = gather::gather(gpu, pixels, camera.position, specular, &settings, shadows)?;
         let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
         let batches_a_step = (DIRECTIONS_A_STEP / directions_a_batch) as usize;
-        let place = move || {
+        let place = move |gather: &LightGather| {
             let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
-            Ok((gather::batches(gpu, &lights, seed)?, times))
+            Ok((gather::batches(gather, &lights, seed)?, times))
         };
         Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
     }
@@ -127,8 +134,8 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
         || lights.iter().any(|sphere| sphere.light.brdf.has_specular());
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings)?;
-    let batches = gather::batches(gpu, lights, seed)?;
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings, None)?;
+    let batches = gather::batches(&gather, lights, seed)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()
 }

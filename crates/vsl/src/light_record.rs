@@ -61,9 +61,7 @@ impl GlossyLight {
         let light = &sphere.light;
         let brdf = &light.brdf;
         let view_n = light.normal.dot(light.incoming);
-        let across = light.incoming - view_n * light.normal;
-        let tangent =
-            across.try_normalize().unwrap_or_else(|| light.normal.any_orthonormal_vector());
+        let tangent = light.tangent();
         let mut base = LambertLight::new(index, sphere, seed);
         base.intensity *= brdf.transmission(view_n);
         Self {

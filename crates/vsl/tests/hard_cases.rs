@@ -2,7 +2,7 @@
 
 mod common;
 
-use std::f32::consts::FRAC_PI_2;
+use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use common::{GPU, SETTINGS, glossy, light, render, surface};
 use glam::Vec3;
@@ -39,12 +39,13 @@ fn continuous(values: &[f32]) {
 #[test]
 fn nothing_jumps_where_the_point_enters_the_sphere() {
     let toward = Vec3::new(-0.3, 0.9, 0.1).normalize();
-    for brdf in [Brdf::lambert(Vec3::ONE), glossy(0.5)] {
+    // Inside, a value stays below 2/r² Φ f_x f_j of the largest reflectances.
+    let lambert = FRAC_1_PI.powi(2);
+    for (brdf, reflectances) in [(Brdf::lambert(Vec3::ONE), lambert), (glossy(0.5), 1.5)] {
         let places = (1..200).map(|step| (toward * (0.005 * step as f32), -toward));
         let values = along(places, brdf, 0.5);
         continuous(&values);
-        // Inside, the value stays below the 2/r² Φ f_x f_j of the formula's bound.
-        let bound = 2.0 / 0.25 * 1.5;
+        let bound = 2.0 / 0.25 * reflectances;
         assert!(values.iter().all(|&value| value < bound), "{values:?}");
     }
 }
@@ -132,6 +133,28 @@ fn nothing_is_ever_non_finite() {
             }
         }
     }
+}
+
+/// A camera that rounding puts on the receiver's horizon, and lights on it.
+#[test]
+fn a_view_on_the_horizon_is_finite() {
+    let surfaces = [surface(Vec3::ZERO, Vec3::Y, glossy(0.3))];
+    let lights = [0.0, 0.4].map(|radius| light(Vec3::NEG_X, Vec3::X, glossy(0.3), radius));
+    for eye in [Vec3::X, Vec3::new(1.0, -1e-8, 0.0), Vec3::new(1.0, 1e-30, 0.0)] {
+        for sampling in SAMPLINGS {
+            let settings = Settings { sampling, ..SETTINGS };
+            let pixels = gather(&GPU, &surfaces, eye, &lights, &settings, 0).expect("a gather");
+            let finite = pixels[0].iter().all(|value| value.is_finite() && *value >= 0.0);
+            assert!(finite, "{sampling:?} {eye}: {pixels:?}");
+        }
+    }
+}
+
+#[test]
+fn no_lights_are_a_black_picture() {
+    let surfaces = [surface(Vec3::ZERO, Vec3::Y, glossy(0.3))];
+    let pixels = gather(&GPU, &surfaces, CAMERA, &[], &SETTINGS, 0).expect("a gather");
+    assert_eq!(pixels, [[0.0; 3]]);
 }
 
 /// One cell: no neighbour, so the rules that ask for neighbours make a point of it.

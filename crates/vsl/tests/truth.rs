@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::f64::consts::PI;
+
 use common::{GPU, SETTINGS, glossy, light, render, surface};
 use glam::{DVec2, DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
@@ -74,6 +76,50 @@ fn many_samples_approach_the_quadrature() {
     }
 }
 
+/// Lambertian surfaces, the whole cone above both horizons: with C = cos a, m = −n_j and c the cone's
+/// axis, ∫ (n_x·ω)(m·ω) dω = A n_x·m + B (n_x·c)(m·c), A = π(2 − 3C + C³)/3, B = 2π(1 − C³)/3 − A. Needs
+/// nothing of the oracle.
+#[test]
+fn lambert_has_a_closed_form() {
+    let brdf = Brdf::lambert(Vec3::splat(0.5));
+    let settings = Settings { samples: 4096, sampling: Sampling::Cone, ..SETTINGS };
+    for radius in [1e-3, 0.2, 0.6] {
+        let place = Vec3::new(-0.4, 1.2, 0.3);
+        let sphere = light(place, Vec3::new(0.1, -1.0, 0.2).normalize(), brdf, radius);
+        let surface = surface(Vec3::ZERO, Vec3::Y, brdf);
+        let found = gather(&GPU, &[surface], CAMERA, &[sphere], &settings, 0).expect("a gather");
+        let [n, m] = [Vec3::Y, -sphere.light.geometric_normal].map(|normal| normal.as_dvec3());
+        let axis = place.as_dvec3().normalize();
+        let r2 = f64::from(radius).powi(2);
+        let cosine = (1.0 - r2 / place.as_dvec3().length_squared()).sqrt();
+        let a = PI * (2.0 - 3.0 * cosine + cosine.powi(3)) / 3.0;
+        let b = 2.0 * PI * (1.0 - cosine.powi(3)) / 3.0 - a;
+        let integral = a * n.dot(m) + b * n.dot(axis) * m.dot(axis);
+        let expected = 0.25 / PI.powi(3) / r2 * integral;
+        let error = f64::from(found[0][0]) / expected - 1.0;
+        assert!(error.abs() < 1e-4, "radius {radius}: {error:e}");
+    }
+}
+
+/// A light whose primary light is on its normal has no tangent of its own.
+#[test]
+fn normal_incidence_on_a_light() {
+    let receiver = surface(Vec3::ZERO, Vec3::Y, Brdf::lambert(Vec3::splat(0.5)));
+    let settings = Settings { samples: 1, scale: 0.0, ..SETTINGS };
+    for index in 0..64 {
+        let (sin, cos) = (index as f32).sin_cos();
+        let normal = Vec3::new(0.3 * sin, -1.0, 0.3 * cos).normalize();
+        let mut sphere = light(Vec3::new(0.2, 1.0, 0.1), normal, glossy(0.2), 0.0);
+        let off = 1e-7 * (index % 3) as f32 * sphere.light.normal.any_orthonormal_vector();
+        sphere.light.incoming = (sphere.light.normal + off).normalize();
+        let found = gather(&GPU, &[receiver], CAMERA, &[sphere], &settings, 0).expect("a gather");
+        let eye = CAMERA.as_dvec3();
+        let truth = oracle::radiance(0, &receiver, eye, &[sphere], &settings, 0).x;
+        let error = f64::from(found[0][0]) / truth - 1.0;
+        assert!(error.abs() < 1e-5, "{index}: {error:e}");
+    }
+}
+
 /// Few samples are unbiased: the mean over many pixels is the quadrature.
 #[test]
 fn nine_samples_are_right_on_average() {
@@ -127,18 +173,21 @@ fn small_spheres_are_point_lights() {
     let plain = manylights_vpl::Settings { lights: 256, clamp: None, radius: None };
     for sampling in SAMPLINGS {
         let settings = Settings { sampling, scale: 0.0, ..SETTINGS };
-        let picture = render("cornell-glossy", [32, 24], &settings, 0);
-        let points: Vec<_> = picture.lights.iter().map(|sphere| sphere.light).collect();
-        let truth: Vec<_> = picture
-            .surfaces
-            .iter()
-            .map(|s| manylights_vpl::oracle::radiance(s, picture.eye, &points, &plain))
-            .collect();
-        let peak = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
-        for (pixel, truth) in picture.image.pixels.iter().zip(&truth) {
-            let error = (Vec3::from(*pixel).as_dvec3() - truth).abs().max_element();
-            // Nine equal terms are summed: the rounding of point lights.
-            assert!(error < 1e-5 * peak, "{sampling:?}: {pixel:?}, {truth}");
+        // One flat scene, one with interpolated normals.
+        for scene in ["cornell-glossy", "trio"] {
+            let picture = render(scene, [32, 24], &settings, 0);
+            let points: Vec<_> = picture.lights.iter().map(|sphere| sphere.light).collect();
+            let truth: Vec<_> = picture
+                .surfaces
+                .iter()
+                .map(|s| manylights_vpl::oracle::radiance(s, picture.eye, &points, &plain))
+                .collect();
+            let peak = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
+            for (pixel, truth) in picture.image.pixels.iter().zip(&truth) {
+                let error = (Vec3::from(*pixel).as_dvec3() - truth).abs().max_element();
+                // Nine equal terms are summed: the rounding of point lights.
+                assert!(error < 1e-5 * peak, "{scene} {sampling:?}: {pixel:?}, {truth}");
+            }
         }
     }
 }

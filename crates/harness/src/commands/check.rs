@@ -42,6 +42,18 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     }
     let moved = regression::compare(&baseline, &cells);
     report_times(&baseline, &cells);
+    let foreign = baseline.iter().find(|old| {
+        let alike = |new: &&Cell| new.inputs.label() == old.inputs.label();
+        let same = |new: &Cell| regression::same_digits(&old.provenance, &new.provenance);
+        !cells.iter().find(alike).is_some_and(same)
+    });
+    if let Some(cell) = foreign {
+        eprintln!(
+            "pictures: the baseline is of {}, another processor or driver: only counts and errors \
+             are compared",
+            cell.provenance.cpu
+        );
+    }
     if arguments.json {
         print_json(&serde_json::to_value(&moved).expect("plain data"))?;
     }

@@ -25,17 +25,28 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<(), Failure> {
     if cells.iter().any(|cell| cell.provenance.machine != machine.machine) {
         return Err(at("cells of several machines: export each machine's own folder"));
     }
-    let measures = measures(&cells);
+    let measures = measures(&latest(&cells));
     print_json(&match arguments.format {
         Tracker::Bencher => bencher(&measures),
         Tracker::GithubActionBenchmark => github_action_benchmark(&measures),
     })
 }
 
+/// The cells of the last build and size, each once: a folder may hold several profiles, and cells that
+/// ran again stand in it twice.
+fn latest(cells: &[Cell]) -> Vec<&Cell> {
+    let size = |cell: &Cell| {
+        (cell.provenance.program.clone(), cell.inputs.resolution, cell.inputs.references.clone())
+    };
+    let last = cells.last().map(size);
+    let alike = cells.iter().filter(|cell| Some(size(cell)) == last);
+    alike.map(|cell| (&cell.key, cell)).collect::<BTreeMap<_, _>>().into_values().collect()
+}
+
 /// Quartiles by benchmark (scene and variant) and measure.
 type Measures = BTreeMap<String, BTreeMap<String, Quartiles>>;
 
-fn measures(cells: &[Cell]) -> Measures {
+fn measures(cells: &[&Cell]) -> Measures {
     let mut samples: BTreeMap<String, BTreeMap<String, Vec<f64>>> = BTreeMap::new();
     for cell in cells {
         let Outcome::Done(done) = &cell.outcome else { continue };

@@ -8,7 +8,7 @@ use crate::cli::MergeArguments;
 use crate::error::Failure;
 use crate::journal::{self, Journal};
 use crate::output;
-use crate::report::{self, Loaded, Report};
+use crate::report::{self, Loaded};
 use crate::session::image_path;
 
 /// Brings the results of several folders, from several machines, into one, and writes its answer. A
@@ -29,23 +29,17 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
         }
         copy_references(directory, out)?;
         for cell in &cells {
-            copy_pictures(cell, directory, out)?;
+            // Pictures first: a cell of the journal has one.
             if journal.get(&cell.key) != Some(cell) {
+                copy_pictures(cell, directory, out)?;
                 journal.append(cell)?;
             }
         }
     }
     let Loaded { experiment, scenes, machine } = report::load(out)?;
-    let answers = answer_files::answers(&experiment, &scenes, out)?;
     let command = report::command(&out.join("experiment.toml"), &experiment, None);
-    let report = Report {
-        experiment: &experiment,
-        cells: &scenes,
-        answers: &answers,
-        machine: &machine,
-        command,
-    };
-    answer_files::write(&report, out)
+    answer_files::write(&experiment, &scenes, &machine, command, out)?;
+    Ok(())
 }
 
 /// All folders must answer the same question.
@@ -88,9 +82,9 @@ fn copy_references(from: &Path, to: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Copies what is there and is not yet known.
+/// Copies what is there.
 fn copy(from: &Path, to: &Path) -> Result<(), Failure> {
-    if !from.exists() || to.exists() {
+    if !from.exists() {
         return Ok(());
     }
     let bytes = std::fs::read(from)

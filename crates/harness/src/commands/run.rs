@@ -11,7 +11,7 @@ use crate::cli::RunArguments;
 use crate::error::Failure;
 use crate::experiment::{self, Experiment};
 use crate::jobs;
-use crate::report::{self, Report};
+use crate::report;
 use crate::session::Session;
 use crate::{answer_files, layers, output, stage};
 
@@ -40,18 +40,11 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         session.retire(&cells)?;
         all_cells.push(cells);
     }
-    let answers = answer_files::answers(&experiment, &all_cells, out)?;
+    let command = report::command(file, &experiment, arguments.out.as_deref());
+    let answers = answer_files::write(&experiment, &all_cells, &session.on_gpu, command, out)?;
     for ((scene, cells), answer) in scenes.iter().zip(&all_cells).zip(&answers) {
         layers::write(&experiment, scene, cells, answer, [&cache, out])?;
     }
-    let report = Report {
-        experiment: &experiment,
-        cells: &all_cells,
-        answers: &answers,
-        machine: &session.on_gpu,
-        command: report::command(file, &experiment, arguments.out.as_deref()),
-    };
-    answer_files::write(&report, out)?;
     check(&answers)
 }
 

@@ -58,6 +58,16 @@ pub(super) struct Wide {
     pub(super) blocks: Vec<Block>,
 }
 
+/// The hierarchy in the words that shaders read: children as in [`Child`], floats as their bits.
+pub struct BvhWords {
+    /// 48 planes (low x, high x, low y, … of eight children each) and eight children a node.
+    pub nodes: Vec<[u32; 56]>,
+    /// Four triangles a block: the x, y, z of four first corners each, then of the second, the third.
+    pub blocks: Vec<[u32; 36]>,
+    /// Entries that the stack of a walk needs.
+    pub stack: u32,
+}
+
 /// What a [`Child`] stands for.
 pub(super) enum Target {
     Node(usize),
@@ -127,6 +137,41 @@ impl Wide {
             wide.nodes[slot] = node;
         }
         wide
+    }
+
+    pub(super) fn words(&self) -> BvhWords {
+        let bits = |values: &[f32]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        let node = |node: &Node| {
+            let planes = bits(node.planes.as_flattened());
+            std::array::from_fn(|i| match i.checked_sub(6 * WIDTH) {
+                None => planes[i],
+                Some(lane) => node.children[lane].0,
+            })
+        };
+        let block = |block: &Block| {
+            let corners = bits(block.corners.as_flattened().as_flattened());
+            std::array::from_fn(|i| corners[i])
+        };
+        // A walk through nothing still starts at a root.
+        let nodes = if self.nodes.is_empty() { &[Node::EMPTY][..] } else { &self.nodes };
+        // Each visited node leaves its entry and adds eight.
+        let stack = 1 + (WIDTH as u32 - 1) * self.depth(0);
+        BvhWords {
+            nodes: nodes.iter().map(node).collect(),
+            blocks: self.blocks.iter().map(block).collect(),
+            stack,
+        }
+    }
+
+    /// Levels of nodes below and with this one.
+    fn depth(&self, node: usize) -> u32 {
+        let Some(node) = self.nodes.get(node) else { return 0 };
+        let inner = node.children.iter().filter_map(|child| match child.target() {
+            // Children that there are not are all the root.
+            Target::Node(index) if index > 0 => Some(self.depth(index)),
+            _ => None,
+        });
+        1 + inner.max().unwrap_or(0)
     }
 
     fn push_leaf(&mut self, triangles: &[[Vec3; 3]], members: &[u32]) -> Child {

@@ -86,6 +86,8 @@ pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord
 pub(crate) fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> SphericalLight {
     let incoming = (normal + 0.5 * normal.any_orthonormal_vector()).normalize();
     let (geometric_normal, flux) = (normal, Vec3::ONE);
+    // Tells the two normals apart.
+    let normal = (normal + 0.2 * normal.any_orthonormal_vector()).normalize();
     let light = VirtualLight { position, geometric_normal, normal, incoming, flux, brdf };
     SphericalLight { light, radius }
 }

@@ -1,0 +1,161 @@
+//! Shadow rays from pixels to virtual lights: which lights of a batch a pixel does not see.
+//!
+//! One pass for all methods, before the gather, so that every method pays for the same rays and asks
+//! for the same visibility: that of the light's centre (thesis 5.2.2).
+
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+use manylights_scene::Scene;
+use manylights_scene::bvh::Bvh;
+
+use crate::{
+    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, Kernel, Resource, VirtualLight, link,
+};
+
+/// Most lights of a batch, as `shaders/shadow.wesl` declares its array: a bit each and pixel.
+const MOST_LIGHTS: usize = 256;
+/// Rays of a batch, where so many lights are allowed: about ten seconds on a slow processor.
+const RAYS: usize = 1 << 24;
+/// Lights in a word.
+const WORD: usize = 32;
+
+/// The point that stands for a virtual light in shadow tests.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Center {
+    position: Vec3,
+    padding0: f32,
+    geometric_normal: Vec3,
+    padding1: f32,
+}
+
+impl Center {
+    /// A place, m, and the unit normal of its surface on the lit side.
+    pub fn new(position: Vec3, geometric_normal: Vec3) -> Self {
+        Self { position, geometric_normal, ..Self::zeroed() }
+    }
+}
+
+impl From<&VirtualLight> for Center {
+    fn from(light: &VirtualLight) -> Self {
+        Self::new(light.position, light.geometric_normal)
+    }
+}
+
+/// The hierarchy over a scene's triangles on the adapter.
+pub(crate) struct Occluders {
+    nodes: Buffer,
+    blocks: Buffer,
+    stack: u32,
+    shift: f32,
+}
+
+impl Occluders {
+    pub(crate) fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
+        let bvh = Bvh::build(scene);
+        let words = bvh.words();
+        Ok(Self {
+            nodes: gpu.storage("hierarchy", &words.nodes)?,
+            blocks: gpu.storage("triangles of the hierarchy", &words.blocks)?,
+            stack: words.stack,
+            shift: bvh.shift(),
+        })
+    }
+}
+
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct View {
+    pixels: u32,
+    shift: f32,
+    padding: [u32; 2],
+}
+
+/// The shadow pass for the pixels of one frame.
+pub struct Shadows {
+    occluders: Arc<Occluders>,
+    vertices: Buffer,
+    triangles: Buffer,
+    kernel: Arc<Kernel>,
+    view: Buffer,
+    hidden: Buffer,
+    pixels: u32,
+    lights_a_batch: usize,
+}
+
+impl Shadows {
+    /// For the pixels of `frame`, which shows `scene`.
+    ///
+    /// # Errors
+    /// Where the hierarchy exceeds what the adapter holds.
+    pub fn new(frame: &GpuFrame, scene: &Scene) -> Result<Self, Error> {
+        let gpu = frame.gpu();
+        let occluders = frame.occluders(scene)?;
+        let wgsl = linked_shader(occluders.stack)?;
+        let mut bindings =
+            vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
+        bindings.extend([Binding::Storage; 4]);
+        let [width, height] = frame.resolution();
+        let pixels = width * height;
+        let lights_a_batch = (RAYS / pixels as usize).clamp(WORD, MOST_LIGHTS) / WORD * WORD;
+        let words = (lights_a_batch / WORD) as u64 * u64::from(pixels);
+        let view = View { pixels, shift: occluders.shift, padding: [0; 2] };
+        Ok(Self {
+            kernel: gpu.kernel("shadow", &wgsl, &bindings)?,
+            view: gpu.uniform("view of shadows", &view)?,
+            hidden: gpu.zeroed("hidden lights", 4 * words)?,
+            vertices: frame.scene.vertices.clone(),
+            triangles: frame.scene.triangles.clone(),
+            occluders,
+            pixels,
+            lights_a_batch,
+        })
+    }
+
+    /// Lights of which [`Shadows::hidden`] has a bit.
+    pub(crate) fn lights_a_batch(&self) -> usize {
+        self.lights_a_batch
+    }
+
+    /// The layout that the shader declares for a batch of [`Center`]s.
+    pub(crate) const CAPACITY: usize = MOST_LIGHTS;
+
+    /// Bit i % 32 of word (i / 32) · pixels + pixel: whether the pixel does not see light i.
+    pub(crate) fn hidden(&self) -> &Buffer {
+        &self.hidden
+    }
+
+    pub(crate) fn resources<'a>(
+        &'a self,
+        surfaces: &'a Buffer,
+        centers: Resource<'a>,
+    ) -> [Resource<'a>; 8] {
+        let Occluders { nodes, blocks, .. } = &*self.occluders;
+        let [view, surfaces, hidden, vertices, triangles, nodes, blocks] =
+            [&self.view, surfaces, &self.hidden, &self.vertices, &self.triangles, nodes, blocks]
+                .map(Resource::Buffer);
+        [view, surfaces, centers, hidden, vertices, triangles, nodes, blocks]
+    }
+
+    pub(crate) fn dispatch<'a>(&'a self, resources: &'a [Resource<'a>; 8]) -> Dispatch<'a> {
+        let [columns, rows, _] = crate::light_gather::workgroups(self.pixels, 64);
+        let words = (self.lights_a_batch / WORD) as u32;
+        Dispatch {
+            pass: "shadow",
+            kernel: &self.kernel,
+            resources,
+            workgroups: [columns, rows, words],
+        }
+    }
+}
+
+/// The WGSL of the shadow pass for a hierarchy whose walk needs a stack of so many entries.
+///
+/// # Errors
+/// Where the shader does not link.
+pub fn linked_shader(stack: u32) -> Result<String, Error> {
+    let hierarchy = format!("const STACK = {stack}u;\n");
+    link("shadow", include_str!("shaders/shadow.wesl"), &[("hierarchy", &hierarchy)], &[])
+}
