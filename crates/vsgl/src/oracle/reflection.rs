@@ -62,8 +62,9 @@ pub fn filtered(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Reflect
     // M = M₀/(M₀ + 1) of both axes, with M₀ = α²/(1 − α²) + (2/λ)(1/4, 1/(4 v_n²)).
     let [mx, my] = [1.0, view_n * view_n].map(|s| (l * s * alpha2 + rest) / (l * s + rest));
     let h = view + axis;
-    let length2 = h.length_squared().max(1e-24);
-    let d = (h.x * h.x / mx + h.y * h.y / my + h.z * h.z) / length2;
+    let length2 = h.length_squared();
+    let sum = h.x * h.x / mx + h.y * h.y / my + h.z * h.z;
+    let d = if length2 > 1e-12 { sum / length2 } else { 1.0 };
     let distribution = 1.0 / (PI * (mx * my).sqrt() * d * d);
     let lobe = distribution / (4.0 * (view.x * view.x * mx + view.z * view.z).sqrt());
     let micro = dominant_normal(alpha2, view);
