@@ -145,7 +145,7 @@ fn a_patch_against_its_point_lights() {
 #[test]
 fn all_power_arrives() {
     let texels = patch(0.3, 14, glossy(0.5));
-    let GaussianLight { diffuse, specular } = light(&texels);
+    let GaussianLight { diffuse, specular, .. } = light(&texels);
     for lobe in [diffuse, specular].map(|lobe| manylights_vsgl::oracle::Lobe::from(&lobe)) {
         let radius = 50.0;
         let arriving = |(w, weight): ([f64; 3], f64)| {
