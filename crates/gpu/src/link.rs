@@ -18,6 +18,7 @@ const SHARED: [(&str, &str); 5] = [
     ("brdf", include_str!("shaders/brdf.wesl")),
     ("measured", include_str!("shaders/measured.wesl")),
     ("surface", include_str!("shaders/surface.wesl")),
+    ("lit_texel", include_str!("shaders/lit_texel.wesl")),
     ("scene", include_str!("shaders/scene.wesl")),
     ("visible", include_str!("shaders/visible.wesl")),
 ];

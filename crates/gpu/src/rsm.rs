@@ -56,7 +56,20 @@ pub fn maps(scene: &Scene, light: &Light, count: u64, seed: u64) -> Vec<Map> {
     projections.into_iter().map(|projection| Map { projection, light: *light }).collect()
 }
 
+/// The maps of all primary lights, with at least `count` cells in all, split evenly between the lights.
+pub fn scene_maps(scene: &Scene, count: u64, seed: u64) -> impl Iterator<Item = Map> {
+    let share = count.div_ceil(scene.lights.len().max(1) as u64);
+    scene.lights.iter().flat_map(move |light| maps(scene, light, share, seed))
+}
+
 impl Map {
+    /// The same map with each cell cut into `side`² cells.
+    pub fn refined(&self, side: u32) -> Self {
+        let mut refined = *self;
+        refined.projection.resolution = self.projection.resolution.map(|cells| cells * side);
+        refined
+    }
+
     /// Direction and flux of a cell. The cells of a light add up to its flux through the map, up to
     /// the variation of a spot's intensity inside a cell, which is taken at the sample.
     pub fn cell(&self, column: u32, row: u32) -> Cell {

@@ -31,13 +31,16 @@ pub struct Center {
     padding1: f32,
 }
 
+impl Center {
+    /// A place, m, and the unit normal of its surface on the lit side.
+    pub fn new(position: Vec3, geometric_normal: Vec3) -> Self {
+        Self { position, geometric_normal, ..Self::zeroed() }
+    }
+}
+
 impl From<&VirtualLight> for Center {
     fn from(light: &VirtualLight) -> Self {
-        Self {
-            position: light.position,
-            geometric_normal: light.geometric_normal,
-            ..Self::zeroed()
-        }
+        Self::new(light.position, light.geometric_normal)
     }
 }
 

@@ -5,7 +5,7 @@ use manylights_scene::{Brdf, Scene};
 
 use crate::frame::SurfaceRecord;
 use crate::raster::rasterise;
-use crate::rsm::{Map, maps};
+use crate::rsm::{Map, scene_maps};
 use crate::{Error, GpuFrame, PassTime};
 
 /// A small lit patch of surface that stands for one cell of a reflective shadow map.
@@ -77,10 +77,9 @@ pub fn lit_maps(
     count: u64,
     seed: u64,
 ) -> Result<(Vec<LitMap>, Vec<PassTime>), Error> {
-    let share = count.div_ceil(scene.lights.len().max(1) as u64);
     let mut lit = Vec::new();
     let mut times = Vec::new();
-    for map in scene.lights.iter().flat_map(|light| maps(scene, light, share, seed)) {
+    for map in scene_maps(scene, count, seed) {
         let (surfaces, passes) = rasterise(frame.gpu(), &frame.scene, &map.projection)?;
         // To a method they are one pass.
         times.extend(passes.into_iter().map(|time| PassTime { pass: "distribute", ..time }));

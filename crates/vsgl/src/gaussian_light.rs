@@ -1,0 +1,159 @@
+//! Virtual spherical Gaussian lights, filtered from the texels of reflective shadow maps.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+use manylights_gpu::{
+    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, LitTexel, LitTexels, PassTime, Resource,
+    SurfaceRecord, link, lit_texels, scene_maps,
+};
+use manylights_scene::Scene;
+
+use crate::Settings;
+use crate::albedo::ALBEDOS;
+
+/// One spherical Gaussian that emits from a cloud of places, as `shaders/filter.wesl` writes it.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Lobe {
+    /// Mean place, metres.
+    pub position: Vec3,
+    /// Variance of the places along one axis, m².
+    pub variance: f32,
+    /// Unit direction of emission.
+    pub axis: Vec3,
+    /// Sharpness of the emission.
+    pub sharpness: f32,
+    /// Emitted power, W; zero for a lobe that is not there.
+    pub power: Vec3,
+    /// Unused.
+    pub padding: f32,
+}
+
+/// The lit texel of a group that is nearest to its mean place.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct Center {
+    position: Vec3,
+    padding0: f32,
+    geometric_normal: Vec3,
+    padding1: f32,
+}
+
+/// What stands for one group of texels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaussianLight {
+    /// Of the Lambertian lobes.
+    pub diffuse: Lobe,
+    /// Of the specular lobes.
+    pub specular: Lobe,
+    /// The lit texel that is nearest to the mean place, metres: what shadow rays aim at, since the mean
+    /// place may be inside a convex body.
+    pub center: Vec3,
+    /// Unit normal of that texel's triangle, on the lit side.
+    pub geometric_normal: Vec3,
+}
+
+impl GaussianLight {
+    /// Whether it has a specular lobe.
+    pub fn has_specular(&self) -> bool {
+        self.specular.power != Vec3::ZERO
+    }
+}
+
+/// The WGSL of the filter; without `specular` it knows no GGX.
+///
+/// # Errors
+/// Where the shader does not link.
+pub fn filter_shader(specular: bool) -> Result<String, Error> {
+    let modules = [("emission", include_str!("shaders/emission.wesl"))];
+    link("filter", include_str!("shaders/filter.wesl"), &modules, &[("specular", specular)])
+}
+
+/// The lights that a picture uses, and the passes that made them. Groups that emit nothing are left
+/// out.
+///
+/// # Errors
+/// Where the maps exceed what the adapter holds.
+pub fn gaussian_lights(
+    frame: &GpuFrame,
+    scene: &Scene,
+    settings: &Settings,
+    seed: u64,
+) -> Result<(Vec<GaussianLight>, Vec<PassTime>), Error> {
+    let specular = scene.has_specular();
+    let mut lights = Vec::new();
+    let mut times = Vec::new();
+    for map in scene_maps(scene, settings.lights, seed) {
+        let (texels, passes) = lit_texels(frame, &map.refined(settings.texels))?;
+        times.extend(passes);
+        let groups = map.projection.resolution;
+        let (filtered, time) = filter(frame.gpu(), &texels, groups, settings.texels, specular)?;
+        times.extend(time);
+        lights.extend(filtered.into_iter().flatten());
+    }
+    Ok((lights, times))
+}
+
+/// The light of one group of texels, by the adapter's kernel: for hard cases that no scene brings about.
+///
+/// # Errors
+/// Where the adapter refuses.
+///
+/// # Panics
+/// Where the texels are no square.
+pub fn filter_group(
+    gpu: &Gpu,
+    texels: &[(SurfaceRecord, LitTexel)],
+) -> Result<Option<GaussianLight>, Error> {
+    let side = texels.len().isqrt();
+    assert_eq!(side * side, texels.len(), "a group is a square of texels");
+    let (surfaces, lit): (Vec<_>, Vec<_>) = texels.iter().copied().unzip();
+    let specular = surfaces.iter().any(|surface| surface.brdf().has_specular());
+    let texels = LitTexels {
+        surfaces: gpu.storage("surfaces", &surfaces)?,
+        texels: gpu.storage("lit texels", &lit)?,
+    };
+    let (lights, _) = filter(gpu, &texels, [1, 1], side as u32, specular)?;
+    Ok(lights.into_iter().flatten().next())
+}
+
+/// One light for each group of `side`² texels.
+fn filter(
+    gpu: &Gpu,
+    map: &LitTexels,
+    groups: [u32; 2],
+    side: u32,
+    specular: bool,
+) -> Result<(Vec<Option<GaussianLight>>, Vec<PassTime>), Error> {
+    let kinds = if specular { 2 } else { 1 };
+    let count = groups[0] as usize * groups[1] as usize;
+    let lobes = gpu.zeroed("lobes", (count * kinds * size_of::<Lobe>()) as u64)?;
+    let centers = gpu.zeroed("centers", (count * size_of::<Center>()) as u64)?;
+    let sides = gpu.uniform("groups", &[side, 0, 0, 0])?;
+    let mut bindings = vec![Binding::Uniform, Binding::Storage, Binding::Storage];
+    bindings.extend([Binding::StorageMut; 2]);
+    let mut buffers: Vec<&Buffer> = vec![&sides, &map.surfaces, &map.texels, &lobes, &centers];
+    let albedos = gpu.storage("albedos", if specular { ALBEDOS.as_slice() } else { &[] })?;
+    if specular {
+        bindings.push(Binding::Storage);
+        buffers.push(&albedos);
+    }
+    let kernel = gpu.kernel("filter", &filter_shader(specular)?, &bindings)?;
+    let resources: Vec<_> = buffers.into_iter().map(Resource::Buffer).collect();
+    let times = gpu.run(&[Dispatch {
+        pass: "filter",
+        kernel: &kernel,
+        resources: &resources,
+        workgroups: [groups[0], groups[1], 1],
+    }])?;
+    let lobes: Vec<Lobe> = gpu.read(&lobes)?;
+    let centers: Vec<Center> = gpu.read(&centers)?;
+    let light = |(group, center): (&[Lobe], &Center)| {
+        let specular = group.get(1).copied().unwrap_or_else(Lobe::zeroed);
+        let Center { position: center, geometric_normal, .. } = *center;
+        let light = GaussianLight { diffuse: group[0], specular, center, geometric_normal };
+        let emits = light.has_specular() || light.diffuse.power != Vec3::ZERO;
+        emits.then_some(light)
+    };
+    Ok((lobes.chunks_exact(kinds).zip(&centers).map(light).collect(), times))
+}

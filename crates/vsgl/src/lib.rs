@@ -1,0 +1,144 @@
+//! Virtual spherical Gaussian lights (Tokuyoshi 2015, in the simplified form of thesis 5.2.8).
+//!
+//! A group of n² texels of a reflective shadow map becomes one light of two spherical Gaussians
+//! G(w; p, λ) = exp(λ(p·w − 1)): one for what its texels reflect by their Lambertian lobes, one for
+//! their specular lobes. Groups are the cells that other methods give one light each, and the sums are:
+//!
+//! - power P = Σ Φ_i ρ_i of the texels, which is also their weight w_i (sum of the channels);
+//! - mean place m and variance s² along one axis of a plane, half of that of the places;
+//! - mean axis ā = Σ w_i r_i a_i / Σ w_i, whose length gives the sharpness λ_e = r(3 − r²)/(1 − r²)
+//!   (Banerjee et al. 2005). A texel's diffuse lobe has its geometric normal and r = 0.575 (sharpness
+//!   2.2925, fitted to cos/π). Its specular lobe is the mirrored direction to the primary light about
+//!   the dominant visible normal, as sharp as the distribution of normals is there.
+//!
+//! Seen from a distance d in the direction ω_m, places of variance s² are a Gaussian of directions of
+//! sharpness d²/s², so that the incident radiance is the product
+//!
+//! L(w) = P/(2π ∫G_e · s²) · G(w; −ā/|ā|, λ_e) · G(w; ω_m, d²/s²),
+//!
+//! again a Gaussian. It is reflected by ρ/π ∫ G ⟨n·w⟩ dw (Tokuyoshi et al. 2024), with the lobes'
+//! coupling at the view and at the mean cosine of that integral, and by a GGX lobe of which `lobe` says
+//! how it is approximated; Fresnel is taken at the direction that contributes most. With
+//! `visibility = traced` the light counts where the lit texel nearest to m is seen.
+//!
+//! Errors of the closed forms against quadrature (`tests/truth.rs`): the diffuse integral, in units of
+//! its largest value, 1e-5 for λ = 0.1, 6e-4 for 2.3, 1.5e-3 for 5, 3e-5 for 100. The specular integral,
+//! root mean square over light directions in units of the largest value, mean over roughness 0.4 to 1,
+//! views of 10° to 75° and λ of 2.3 to 200: 0.08 by filtered normals (the default), 0.19 by the
+//! anisotropic Gaussian of the thesis' source.
+//!
+//! Deviations from the papers and the author's code:
+//! - A texel has the extent of the patch that it stands for. A square then has one variance however
+//!   finely it is cut; at the thesis' 14² texels that adds 1/196.
+//! - The power of a specular lobe is the albedo of the GGX lobe from a table, where the code takes the
+//!   specular colour: rough lobes lose up to two thirds to masking.
+//! - Emitted lobes are at least as sharp as the diffuse one: the formula goes to a uniform sphere for
+//!   α → 1, half of which is behind the surface.
+//! - Filtered normals are multiplied by G₂/G₁ at the dominant direction; the code leaves it out and
+//!   reflects up to 1.6 times too much.
+//! - Fresnel and the coupling of the lobes; the code knows neither.
+//! - As in `manylights-vpl`: exact solid angles of texels, the emitting cosine of the geometric normal.
+//!
+//! Limits: one circular lobe a component. A Gaussian has no horizon: 9 % of a diffuse lobe's power goes
+//! behind its surface, by which closed scenes are too dark (`tests/tests/vsgl_truths.rs`), and groups
+//! that straddle an edge of depth have a large s² and a mean place off the surfaces, from which they
+//! leak light. Lights are read back, as those of other methods are: 96 bytes and 32 for the centre.
+
+mod albedo;
+mod gather;
+mod gaussian_light;
+mod light_record;
+pub mod oracle;
+mod params;
+
+use glam::Vec3;
+use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
+use manylights_method::{
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
+    many_light_frame,
+};
+
+use gather::LAMBERT_CAPACITY;
+
+pub use gather::linked_shader;
+pub use gaussian_light::{GaussianLight, Lobe, filter_group, filter_shader, gaussian_lights};
+pub use params::{Settings, SpecularLobe};
+
+/// Pairs of light and pixel in one submission: about a second on a slow processor, far below any
+/// watchdog on a fast one.
+const PAIRS_A_STEP: u64 = 1 << 26;
+
+/// The method.
+pub struct Vsgl;
+
+impl Method for Vsgl {
+    fn id(&self) -> &'static str {
+        "vsgl"
+    }
+
+    fn title(&self) -> &'static str {
+        "virtual spherical Gaussian lights (Tokuyoshi 2015)"
+    }
+
+    fn processor(&self) -> Processor {
+        Processor::Gpu
+    }
+
+    fn parameters(&self) -> &'static [ParameterInfo] {
+        params::PARAMETERS
+    }
+
+    fn cost_parameter(&self) -> &'static str {
+        "lights"
+    }
+
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
+    /// Half of the lights is half of the flux.
+    fn is_progressive(&self) -> bool {
+        false
+    }
+
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        let (on_gpu, shadows) = many_light_frame(frame)?;
+        let settings = Settings::new(parameters);
+        let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
+        let [width, height] = on_gpu.resolution();
+        let pixels = width * height;
+        let specular = scene.has_specular();
+        let gather = gather::gather(gpu, pixels, camera.position, specular, &settings, shadows)?;
+        let pairs_a_batch = u64::from(pixels) * LAMBERT_CAPACITY as u64;
+        let batches_a_step = (PAIRS_A_STEP / pairs_a_batch) as usize;
+        let place = move |gather: &LightGather| {
+            let (lights, times) = gaussian_lights(on_gpu, scene, &settings, seed)?;
+            Ok((gather::batches(gather, &lights)?, times))
+        };
+        Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
+    }
+}
+
+/// Radiance of given surfaces under given lights, by the adapter's kernels: what a picture does, for
+/// hard cases that no scene brings about.
+///
+/// # Errors
+/// Where the adapter refuses.
+pub fn gather(
+    gpu: &Gpu,
+    surfaces: &[SurfaceRecord],
+    camera: Vec3,
+    lights: &[GaussianLight],
+    settings: &Settings,
+) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
+    let specular = surfaces.iter().any(|surface| surface.brdf().has_specular())
+        || lights.iter().any(GaussianLight::has_specular);
+    let gather = gather::gather(gpu, surfaces.len() as u32, camera, specular, settings, None)?;
+    let batches = gather::batches(&gather, lights)?;
+    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
+    gather.radiance()
+}

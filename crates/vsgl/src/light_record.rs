@@ -1,0 +1,64 @@
+//! Virtual spherical Gaussian lights as the gather reads them from uniform memory.
+
+use std::f32::consts::TAU;
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use crate::{GaussianLight, Lobe};
+
+/// A light without specular power: 48 bytes.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct LambertLight {
+    position: Vec3,
+    variance: f32,
+    /// Against the emission.
+    axis: Vec3,
+    sharpness: f32,
+    /// P/(2π ∫G), W·sr⁻¹.
+    strength: Vec3,
+    padding: f32,
+}
+
+/// A light with both lobes: 96 bytes. Its position is that of its diffuse lobe, where it has one.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct GlossyLight {
+    diffuse: LambertLight,
+    specular: LambertLight,
+}
+
+impl LambertLight {
+    fn from_lobe(lobe: &Lobe) -> Self {
+        Self {
+            position: lobe.position,
+            variance: lobe.variance,
+            axis: -lobe.axis,
+            sharpness: lobe.sharpness,
+            strength: lobe.power / (TAU * integral(lobe.sharpness)),
+            padding: 0.0,
+        }
+    }
+
+    pub(crate) fn new(light: &GaussianLight) -> Self {
+        Self::from_lobe(&light.diffuse)
+    }
+}
+
+impl GlossyLight {
+    pub(crate) fn new(light: &GaussianLight) -> Self {
+        let specular = LambertLight::from_lobe(&light.specular);
+        let mut diffuse = LambertLight::from_lobe(&light.diffuse);
+        if light.diffuse.power == Vec3::ZERO {
+            diffuse = LambertLight { strength: Vec3::ZERO, ..specular };
+        }
+        Self { diffuse, specular }
+    }
+}
+
+/// ∫ exp(λ(p·w − 1)) dw over the sphere.
+fn integral(sharpness: f32) -> f32 {
+    let twice = 2.0 * sharpness;
+    2.0 * TAU * if twice > 0.0 { -(-twice).exp_m1() / twice } else { 1.0 }
+}
