@@ -36,6 +36,11 @@ impl Reflectances {
         kinds
     }
 
+    /// Whether all lobes are glTF's: GGX with Schlick's Fresnel term.
+    pub fn is_plain(&self) -> bool {
+        !self.exact_fresnel && self.measured.is_empty()
+    }
+
     /// The switches of `package::brdf`, for [`link`](crate::link).
     pub fn features(&self) -> [Feature<'static>; 2] {
         [("exact_fresnel", self.exact_fresnel), ("measured", !self.measured.is_empty())]

@@ -25,7 +25,10 @@ fn texels_are_the_virtual_lights_of_their_cells() {
                     // The quotient of the cosines loses digits at the horizon.
                     let cosine = light.geometric_normal.dot(light.incoming);
                     let bound = (5e-6 + 1e-6 / cosine) * light.flux.length();
-                    assert!((texel.flux - light.flux).length() < bound, "{name} {texel:?} {light:?}");
+                    assert!(
+                        (texel.flux - light.flux).length() < bound,
+                        "{name} {texel:?} {light:?}"
+                    );
                     assert!(close(texel.incoming, light.incoming), "{name}");
                     assert!(close(texel.geometric_normal, light.geometric_normal), "{name}");
                     assert_eq!(surface.position, light.position, "{name}");

@@ -10,7 +10,7 @@ use manylights_harmonics::window::Window;
 use manylights_hvl::lobes::LobeTable;
 use manylights_hvl::zonal::ZonalTable;
 use manylights_hvl::{Damping, Form, Horizon, Settings, SphericalLight, oracle};
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Lobe};
 
 const BANDS: [usize; 6] = [1, 3, 5, 10, 15, 20];
 const ROUGHNESS: [f32; 6] = [1.0, 0.6, 0.4, 0.3, 0.2, 0.1];
@@ -28,7 +28,12 @@ const SETTINGS: Settings = Settings {
 
 fn glossy(roughness: f32) -> Brdf {
     // A metal: nothing but the specular lobe.
-    Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, f90: 1.0, alpha: roughness * roughness }
+    Brdf {
+        diffuse: Vec3::ZERO,
+        f0: Vec3::ONE,
+        lobe: Lobe::Schlick { f90: 1.0 },
+        alpha: roughness * roughness,
+    }
 }
 
 /// Spheres that cover 0.2 rad from all over the hemisphere, each shining at the surface.
@@ -73,7 +78,8 @@ fn views() -> [DVec3; 3] {
 }
 
 fn surface(brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, f90, alpha } = brdf;
+    let Brdf { diffuse, f0, lobe, alpha } = brdf;
+    let f90 = lobe.slot();
     let (position, normal) = (Vec3::ZERO, Vec3::Y);
     SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
 }

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use glam::{Quat, Vec3};
 use manylights_gpu::{Gpu, RadiusRule, SurfaceRecord, VirtualLight};
 use manylights_hvl::{Damping, Form, Horizon, Settings, SphericalLight, gather, oracle, rounded};
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Lobe};
 
 /// A family of pairs of one surface and one light, all seen by one camera.
 struct Case {
@@ -28,7 +28,8 @@ const SETTINGS: Settings = Settings {
 };
 
 fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, f90, alpha } = brdf;
+    let Brdf { diffuse, f0, lobe, alpha } = brdf;
+    let f90 = lobe.slot();
     SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
 }
 
@@ -43,7 +44,7 @@ fn materials() -> Vec<(&'static str, Brdf)> {
     let glossy = |roughness: f32| Brdf {
         diffuse: Vec3::splat(0.5),
         f0: Vec3::splat(0.04),
-        f90: 1.0,
+        lobe: Lobe::Schlick { f90: 1.0 },
         alpha: roughness * roughness,
     };
     vec![

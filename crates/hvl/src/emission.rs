@@ -106,7 +106,9 @@ pub fn reflectance(light: &VirtualLight, toward: DVec3, bands: usize) -> DVec3 {
     let grazing: f64 = mirrored.map(|(l, value)| value * harmonics[index(l, 0)]).sum();
     let [entering, fall] = diffuse::transmission(&brdf);
     let lambert = brdf.transmission(normal.dot(incoming)) * (entering - fall * grazing);
-    brdf.diffuse * (FRAC_1_PI * lambert) + brdf.f0 * a + DVec3::splat(brdf.f90 * b)
+    brdf.diffuse * (FRAC_1_PI * lambert)
+        + brdf.f0 * a
+        + DVec3::splat(f64::from(brdf.lobe.f90()) * b)
 }
 
 /// A module with, for `bands` bands:

@@ -58,6 +58,8 @@ pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<
         ("exact_horizon", settings.horizon == Horizon::Exact),
         ("expanded_emission", expanded),
         ("traced", traced),
+        ("exact_fresnel", false),
+        ("measured", false),
     ];
     link("gather", include_str!("shaders/gather.wesl"), &modules, &features)
 }

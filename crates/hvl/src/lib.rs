@@ -64,7 +64,7 @@ mod spherical_light;
 pub mod zonal;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
+use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
 use manylights_harmonics::even_count;
 use manylights_method::{
     Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
@@ -121,6 +121,11 @@ impl Method for Hvl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
+        if !Reflectances::of_scene(frame.scene).is_plain() {
+            return Err(Error::Declined(
+                "knows glTF's materials alone; this scene has others".into(),
+            ));
+        }
         let (on_gpu, shadows) = many_light_frame(frame)?;
         let settings = Settings::new(parameters);
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);

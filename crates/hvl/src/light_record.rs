@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 use manylights_gpu::SphericalLight;
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Lobe};
 
 use crate::emission;
 
@@ -104,13 +104,19 @@ fn unpack_direction(packed: u32) -> Vec3 {
 fn pack_reflectance(brdf: &Brdf) -> [u32; 4] {
     let [d, f] = [brdf.diffuse, brdf.f0];
     let bits = |value: f32| (value.clamp(0.0, 1.0) * 65535.0).round() as u32;
-    [[d.x, d.y], [d.z, f.x], [f.y, f.z], [brdf.f90, 0.0]].map(|[a, b]| bits(a) | bits(b) << 16)
+    [[d.x, d.y], [d.z, f.x], [f.y, f.z], [brdf.lobe.f90(), 0.0]]
+        .map(|[a, b]| bits(a) | bits(b) << 16)
 }
 
 fn unpack_reflectance(packed: [u32; 4], alpha: f32) -> Brdf {
     let value = |bits: u32| bits as f32 / 65535.0;
     let [a, b, c, d] = packed.map(|pair| [value(pair & 0xffff), value(pair >> 16)]);
-    Brdf { diffuse: Vec3::new(a[0], a[1], b[0]), f0: Vec3::new(b[1], c[0], c[1]), f90: d[0], alpha }
+    Brdf {
+        diffuse: Vec3::new(a[0], a[1], b[0]),
+        f0: Vec3::new(b[1], c[0], c[1]),
+        lobe: Lobe::Schlick { f90: d[0] },
+        alpha,
+    }
 }
 
 const _: () = assert!(size_of::<LambertLight>() == 48 && size_of::<GlossyLight>() == 64);

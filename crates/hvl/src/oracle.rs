@@ -124,7 +124,9 @@ impl Receiver {
         let tangent = across.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
         let angle = view.dot(tangent).atan2(view_n);
         let colors = |row: Vec<[f64; 2]>| {
-            row.into_iter().map(|[a, b]| brdf.f0 * a + DVec3::splat(brdf.f90 * b)).collect()
+            row.into_iter()
+                .map(|[a, b]| brdf.f0 * a + DVec3::splat(f64::from(brdf.lobe.f90()) * b))
+                .collect()
         };
         let specular = if brdf.has_specular() {
             let alpha = surface.alpha;

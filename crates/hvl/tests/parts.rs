@@ -7,7 +7,7 @@ use manylights_gpu::VirtualLight;
 use manylights_harmonics::zonal::Cap;
 use manylights_hvl::horizon::above;
 use manylights_hvl::{Horizon, SphericalLight, rounded};
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Lobe};
 
 fn cap(a: f64) -> Cap<f64> {
     Cap { sine: a.sin(), cosine: a.cos() }
@@ -56,7 +56,12 @@ fn the_smooth_share_is_near_the_exact_one() {
 
 #[test]
 fn rounding_is_small_and_happens_once() {
-    let brdf = Brdf { diffuse: Vec3::splat(0.3), f0: Vec3::splat(0.04), f90: 1.0, alpha: 0.1 };
+    let brdf = Brdf {
+        diffuse: Vec3::splat(0.3),
+        f0: Vec3::splat(0.04),
+        lobe: Lobe::Schlick { f90: 1.0 },
+        alpha: 0.1,
+    };
     let mut worst: f32 = 0.0;
     for i in 0..10_000 {
         let z = (i as f32 + 0.5) / 5000.0 - 1.0;

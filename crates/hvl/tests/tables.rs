@@ -9,7 +9,7 @@ use manylights_hvl::emission::{EmissionTable, reflectance, terms};
 use manylights_hvl::lobes::{ANGLES, LobeTable};
 use manylights_hvl::zonal::ZonalTable;
 use manylights_hvl::{Damping, diffuse};
-use manylights_scene::{Brdf, DBrdf};
+use manylights_scene::{Brdf, DBrdf, Lobe};
 
 const BANDS: usize = 6;
 
@@ -19,7 +19,12 @@ fn lobes_are_projections_of_the_reflectance() {
     let basis = Basis::<f64>::new(BANDS);
     for (alpha, bound) in [(0.25_f32, 5e-5), (1.0, 2e-5)] {
         let table = LobeTable::of(alpha, BANDS, Damping::None);
-        let brdf = Brdf { alpha, f0: Vec3::splat(0.3), f90: 0.8, ..Brdf::lambert(Vec3::ZERO) };
+        let brdf = Brdf {
+            alpha,
+            f0: Vec3::splat(0.3),
+            lobe: Lobe::Schlick { f90: 0.8 },
+            ..Brdf::lambert(Vec3::ZERO)
+        };
         let brdf = DBrdf::from(brdf);
         for degrees in [0_usize, 40, 80] {
             let view = (degrees as f64).to_radians();
@@ -154,7 +159,7 @@ fn emissions_are_projections_of_the_reflectance() {
     let brdf = DBrdf::from(Brdf {
         alpha: 0.25,
         f0: Vec3::splat(0.3),
-        f90: 0.8,
+        lobe: Lobe::Schlick { f90: 0.8 },
         ..Brdf::lambert(Vec3::ZERO)
     });
     let table = EmissionTable::of(0.25, bands);
@@ -177,7 +182,12 @@ fn emissions_are_projections_of_the_reflectance() {
 /// A Lambertian light is one constant at any number of bands; a rough glossy one is approached.
 #[test]
 fn more_bands_of_emission_approach_the_reflectance() {
-    let brdf = Brdf { diffuse: Vec3::splat(0.5), f0: Vec3::splat(0.04), f90: 1.0, alpha: 0.36 };
+    let brdf = Brdf {
+        diffuse: Vec3::splat(0.5),
+        f0: Vec3::splat(0.04),
+        lobe: Lobe::Schlick { f90: 1.0 },
+        alpha: 0.36,
+    };
     let light = manylights_gpu::VirtualLight {
         position: Vec3::ZERO,
         geometric_normal: Vec3::Z,

@@ -28,6 +28,14 @@ impl Lobe {
     /// Indices of refraction stay below.
     pub const MAX_INDEX: f32 = 16.0;
 
+    /// Reflectance at grazing incidence of Schlick's form, 0 of another: for methods that know no other.
+    pub fn f90(self) -> f32 {
+        match self {
+            Self::Schlick { f90 } => f90,
+            Self::Dielectric { .. } | Self::Measured(_) => 0.0,
+        }
+    }
+
     /// The lobe as one number, which records on the adapter carry in their slot `f90`: f90 itself
     /// (from 0) for Schlick's form, −index for the exact one, −(16 + number) of a measurement. These
     /// functions are the only places that know it in Rust, `shaders/brdf.wesl` in WGSL.

@@ -7,9 +7,7 @@ use std::fmt::Write as _;
 use glam::{DVec3, Quat, Vec3};
 use manylights_gpu::{Gpu, LitTexel, SurfaceRecord};
 use manylights_scene::Brdf;
-use manylights_vsgl::{
-    GaussianLight, Lobe, Settings, SpecularLobe, filter_group, gather, oracle,
-};
+use manylights_vsgl::{GaussianLight, Lobe, Settings, SpecularLobe, filter_group, gather, oracle};
 
 /// Texels to be filtered into a light, and a surface that it shines on.
 struct Pair {
@@ -27,7 +25,8 @@ struct Case {
 const LOBES: [SpecularLobe; 2] = [SpecularLobe::Filtered, SpecularLobe::Anisotropic];
 
 fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, f90, alpha } = brdf;
+    let Brdf { diffuse, f0, lobe, alpha } = brdf;
+    let f90 = lobe.slot();
     SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
 }
 
@@ -55,7 +54,7 @@ fn materials() -> Vec<(&'static str, Brdf)> {
     let glossy = |roughness: f32| Brdf {
         diffuse: Vec3::splat(0.5),
         f0: Vec3::splat(0.04),
-        f90: 1.0,
+        lobe: manylights_scene::Lobe::Schlick { f90: 1.0 },
         alpha: roughness * roughness,
     };
     vec![

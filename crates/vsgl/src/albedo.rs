@@ -31,7 +31,12 @@ pub(crate) fn albedo(alpha: f64, cosine: f64) -> DVec2 {
     let view = DVec3::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine);
     let stretch = DVec3::new(alpha, alpha, 1.0);
     let standard = (stretch * view).normalize();
-    let white = DBrdf { diffuse: DVec3::ZERO, f0: DVec3::ONE, f90: 1.0, alpha };
+    let white = DBrdf {
+        diffuse: DVec3::ZERO,
+        f0: DVec3::ONE,
+        lobe: manylights_scene::Lobe::Schlick { f90: 1.0 },
+        alpha,
+    };
     let middle = |index: u32, count: u32| (f64::from(index) + 0.5) / f64::from(count);
     let mut sum = DVec2::ZERO;
     for ring in 0..RINGS {
@@ -80,8 +85,9 @@ mod tests {
         let middle = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
         for roughness in [0.3, 0.5, 0.77, 1.0] {
             for cosine in [0.06, 0.31, 0.7, 0.99] {
-                let (f0, f90, alpha) = (DVec3::splat(0.3), 0.8, roughness * roughness);
-                let brdf = DBrdf { diffuse: DVec3::ZERO, f0, f90, alpha };
+                let (f0, lobe) = (DVec3::splat(0.3), manylights_scene::Lobe::Schlick { f90: 0.8 });
+                let alpha = roughness * roughness;
+                let brdf = DBrdf { diffuse: DVec3::ZERO, f0, lobe, alpha };
                 let view = DVec3::new(f64::sqrt(1.0 - cosine * cosine), 0.0, cosine);
                 let mut truth = 0.0;
                 for ring in 0..side {
@@ -97,7 +103,10 @@ mod tests {
                 let found = interpolated(roughness, cosine).dot(DVec2::new(0.3, 0.8));
                 println!("{roughness} {cosine}: {found:.4} {truth:.4}");
                 // The table's rows are 0.03 apart and its curves bend where light grazes.
-                assert!((found / truth - 1.0).abs() < 0.015, "{roughness} {cosine}: {found} {truth}");
+                assert!(
+                    (found / truth - 1.0).abs() < 0.015,
+                    "{roughness} {cosine}: {found} {truth}"
+                );
             }
         }
     }

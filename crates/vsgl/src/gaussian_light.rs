@@ -66,7 +66,8 @@ impl GaussianLight {
 /// Where the shader does not link.
 pub fn filter_shader(specular: bool) -> Result<String, Error> {
     let modules = [("emission", include_str!("shaders/emission.wesl"))];
-    link("filter", include_str!("shaders/filter.wesl"), &modules, &[("specular", specular)])
+    let features = [("specular", specular), ("exact_fresnel", false), ("measured", false)];
+    link("filter", include_str!("shaders/filter.wesl"), &modules, &features)
 }
 
 /// The lights that a picture uses, and the passes that made them. Groups that emit nothing are left

@@ -55,7 +55,10 @@ fn power_is_reflected_power() {
                     .sum();
                 println!("roughness {roughness}, cosine {cosine}: {:+.4}", power / truth - 1.0);
                 // The table of albedos is interpolated.
-                assert!((power / truth - 1.0).abs() < 0.015, "{roughness} {cosine}: {power} {truth}");
+                assert!(
+                    (power / truth - 1.0).abs() < 0.015,
+                    "{roughness} {cosine}: {power} {truth}"
+                );
             }
         }
     }

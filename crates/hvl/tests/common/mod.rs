@@ -10,7 +10,7 @@ use manylights_hvl::{
 };
 use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
 use manylights_metrics::RadianceImage;
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Lobe};
 
 pub(crate) static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
@@ -75,7 +75,7 @@ pub(crate) fn glossy(roughness: f32) -> Brdf {
     Brdf {
         diffuse: Vec3::new(0.5, 0.3, 0.2),
         f0: Vec3::splat(0.04),
-        f90: 1.0,
+        lobe: Lobe::Schlick { f90: 1.0 },
         alpha: roughness * roughness,
     }
 }
@@ -85,7 +85,8 @@ pub(crate) fn metal(roughness: f32) -> Brdf {
 }
 
 pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, f90, alpha } = brdf;
+    let Brdf { diffuse, f0, lobe, alpha } = brdf;
+    let f90 = lobe.slot();
     SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
 }
 

@@ -76,7 +76,7 @@ fn diffuse(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     let brdf = DBrdf::from(surface.brdf());
     let entering = brdf.transmission(cosine(surface, texel));
     // ∫ 2c (1 − c)⁵ dc = 1/21.
-    let leaving = 1.0 - (brdf.f0 * (20.0 / 21.0) + brdf.f90 / 21.0).max_element();
+    let leaving = 1.0 - (brdf.f0 * (20.0 / 21.0) + f64::from(brdf.lobe.f90()) / 21.0).max_element();
     Emission {
         power: texel.flux.as_dvec3() * brdf.diffuse * (entering * leaving),
         axis: texel.geometric_normal.as_dvec3().normalize(),
@@ -103,7 +103,7 @@ fn specular(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     let axis = (2.0 * view_m * micro - incoming).normalize();
     let lobe = (2.0 / alpha2 - 2.0) * local.z / (4.0 * view_m);
     let albedo = interpolated(brdf.alpha.sqrt(), view_n);
-    let reflected = brdf.f0 * albedo.x + DVec3::splat(brdf.f90 * albedo.y);
+    let reflected = brdf.f0 * albedo.x + DVec3::splat(f64::from(brdf.lobe.f90()) * albedo.y);
     let geometric = texel.geometric_normal.as_dvec3().normalize().dot(axis) / normal.dot(axis);
     Emission {
         power: texel.flux.as_dvec3() * reflected * geometric.clamp(0.0, 2.0),

@@ -67,7 +67,8 @@ fn parameters(settings: &Settings) -> Parameters {
 }
 
 pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, f90, alpha } = brdf;
+    let Brdf { diffuse, f0, lobe, alpha } = brdf;
+    let f90 = lobe.slot();
     SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
 }
 
@@ -75,7 +76,7 @@ pub(crate) fn glossy(roughness: f32) -> Brdf {
     Brdf {
         diffuse: Vec3::splat(0.5),
         f0: Vec3::splat(0.04),
-        f90: 1.0,
+        lobe: manylights_scene::Lobe::Schlick { f90: 1.0 },
         alpha: roughness * roughness,
     }
 }
