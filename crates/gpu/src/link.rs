@@ -14,7 +14,7 @@ pub type Feature<'a> = (&'a str, bool);
 pub type Module<'a> = (&'a str, &'a str);
 
 /// Modules that every shader may import as `package::NAME`.
-const SHARED: [(&str, &str); 5] = [
+const SHARED: [(&str, &str); 6] = [
     ("brdf", include_str!("shaders/brdf.wesl")),
     ("measured", include_str!("shaders/measured.wesl")),
     ("surface", include_str!("shaders/surface.wesl")),
