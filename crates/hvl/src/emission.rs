@@ -21,8 +21,8 @@ use crate::{Damping, diffuse};
 /// Angles between primary light and normal: 0°, 1°, … 89°. At 90° the reflectance has no bound.
 pub const ANGLES: usize = 90;
 
-/// As for the receivers' lobes.
-const NODES: [usize; 2] = [64, 96];
+/// More than for the receivers' lobes: without the cosine the lobe ends at the horizon in a step.
+const NODES: [usize; 2] = [192, 192];
 
 /// The lobes of one α.
 #[derive(Debug)]
