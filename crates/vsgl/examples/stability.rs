@@ -7,9 +7,7 @@ use std::fmt::Write as _;
 use glam::{DVec3, Quat, Vec3};
 use manylights_gpu::{Gpu, LitTexel, SurfaceRecord};
 use manylights_scene::Brdf;
-use manylights_vsgl::{
-    GaussianLight, Lobe, Settings, SpecularLobe, filter_group, gather, oracle,
-};
+use manylights_vsgl::{GaussianLight, Lobe, Settings, SpecularLobe, filter_group, gather, oracle};
 
 /// Texels to be filtered into a light, and a surface that it shines on.
 struct Pair {

@@ -97,7 +97,10 @@ mod tests {
                 let found = interpolated(roughness, cosine).dot(DVec2::new(0.3, 0.8));
                 println!("{roughness} {cosine}: {found:.4} {truth:.4}");
                 // The table's rows are 0.03 apart and its curves bend where light grazes.
-                assert!((found / truth - 1.0).abs() < 0.015, "{roughness} {cosine}: {found} {truth}");
+                assert!(
+                    (found / truth - 1.0).abs() < 0.015,
+                    "{roughness} {cosine}: {found} {truth}"
+                );
             }
         }
     }

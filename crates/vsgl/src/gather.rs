@@ -51,8 +51,7 @@ pub(crate) fn batches(
     gather: &LightGather,
     lights: &[GaussianLight],
 ) -> Result<LightBatches, Error> {
-    let (glossy, lambert): (Vec<_>, Vec<_>) =
-        lights.iter().partition(|light| light.has_specular());
+    let (glossy, lambert): (Vec<_>, Vec<_>) = lights.iter().partition(|light| light.has_specular());
     let centers = [&lambert, &glossy].map(|lights| {
         let center = |light: &&GaussianLight| Center::new(light.center, light.geometric_normal);
         lights.iter().map(center).collect::<Vec<_>>()

@@ -42,9 +42,7 @@ fn every_permutation_is_valid() {
         }
     }
     let [uniform, read, write] = [Binding::Uniform, Binding::Storage, Binding::StorageMut];
-    for (specular, bindings) in
-        [(false, vec![]), (true, vec![read])]
-    {
+    for (specular, bindings) in [(false, vec![]), (true, vec![read])] {
         let bindings = [vec![uniform, read, read, write, write], bindings].concat();
         let wgsl = filter_shader(specular).expect("links");
         GPU.kernel("filter", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");

@@ -54,7 +54,8 @@ fn products_and_integrals() {
 /// Tokuyoshi's closed form; the errors that ../src/lib.rs states.
 #[test]
 fn clamped_cosine_integral() {
-    let table = [(0.1, 4e-5), (1.0, 1e-4), (2.29, 6e-4), (5.0, 1.6e-3), (20.0, 4e-4), (100.0, 4e-5)];
+    let table =
+        [(0.1, 4e-5), (1.0, 1e-4), (2.29, 6e-4), (5.0, 1.6e-3), (20.0, 4e-4), (100.0, 4e-5)];
     for (l, bound) in table {
         let peak = clamped_cosine(1.0, l).integral;
         let (mut worst, mut worst_mean) = (0.0_f64, 0.0_f64);
@@ -81,7 +82,8 @@ fn share_above_the_horizon() {
         for step in -10..=10 {
             let axis = at(f64::from(step) / 10.0);
             let nodes = weighted(axis, l, 200);
-            let above: f64 = nodes.iter().filter(|(w, _)| w.z > 0.0).map(|(_, weight)| weight).sum();
+            let above: f64 =
+                nodes.iter().filter(|(w, _)| w.z > 0.0).map(|(_, weight)| weight).sum();
             let error = (visible_share(axis.z, l) - above / integral(l)).abs();
             assert!(error < 4e-3, "{l} {}: {error}", axis.z);
         }
@@ -93,7 +95,11 @@ fn mean_lengths() {
     for l in [0.0, 1e-3, 0.5, 2.2925, 10.0, 1e6, 1e12] {
         let back = (1.0 - blur(l)).clamp(0.0, 1.0);
         // The sharpness of a mean length has the rounding of 1 − r.
-        assert!((sharpness(back) - l).abs() <= 1e-9 * l + 1e-15 * l * l, "{l}: {}", sharpness(back));
+        assert!(
+            (sharpness(back) - l).abs() <= 1e-9 * l + 1e-15 * l * l,
+            "{l}: {}",
+            sharpness(back)
+        );
         // Banerjee's estimate is within 4 % of the exact one.
         assert!(l == 0.0 || (sharpness(mean_length(l)) / l - 1.0).abs() < 0.04 || l > 1e9, "{l}");
     }
@@ -103,17 +109,14 @@ fn mean_lengths() {
 
 /// Root mean square over lights all around, in units of the largest value.
 fn specular_errors(roughness: f64, view: f64, sharpness: f64) -> [f64; 2] {
-    let brdf = DBrdf {
-        diffuse: DVec3::ZERO,
-        f0: DVec3::ONE,
-        f90: 1.0,
-        alpha: roughness * roughness,
-    };
+    let brdf =
+        DBrdf { diffuse: DVec3::ZERO, f0: DVec3::ONE, f90: 1.0, alpha: roughness * roughness };
     let view = at(view.to_radians().cos());
     let (mut errors, mut peak, mut total) = ([0.0; 2], 0.0_f64, 0.0);
     for (axis, weight) in sphere_nodes(10, [-0.3, 1.0]) {
         let axis = DVec3::from_array(axis);
-        let value = |(w, weight): (DVec3, f64)| brdf.eval(DVec3::Z, view, w).x * w.z.max(0.0) * weight;
+        let value =
+            |(w, weight): (DVec3, f64)| brdf.eval(DVec3::Z, view, w).x * w.z.max(0.0) * weight;
         let truth: f64 = weighted(axis, sharpness, 60).into_iter().map(value).sum();
         let found = [
             anisotropic(brdf.alpha, view, axis, sharpness).integral,

@@ -78,8 +78,11 @@ pub fn clamped_cosine(cosine: f64, sharpness: f64) -> Cosine {
     let t = l * ratio.sqrt();
     let tz = t * cosine;
     // The difference of two exponentials over t, in the limit of t → 0 as well.
-    let spread =
-        if t > 0.0 { -(-tz * tz).exp() * (t * t * (cosine * cosine - 1.0)).exp_m1() / t } else { 0.0 };
+    let spread = if t > 0.0 {
+        -(-tz * tz).exp() * (t * t * (cosine * cosine - 1.0)).exp_m1() / t
+    } else {
+        0.0
+    };
     let f = 0.5 * (cosine * erfc(-tz) + erfc(t)) + spread / (2.0 * PI.sqrt());
     let f = f.clamp(0.0, 1.0);
     let integral = TAU * (below(l) + (above(l) - below(l)) * f);

@@ -41,8 +41,7 @@ impl Lobe {
             sharpness: distance2 / variance,
             log_amplitude: 0.0,
         };
-        let emission =
-            Gaussian { axis: -self.axis, sharpness: self.sharpness, log_amplitude: 0.0 };
+        let emission = Gaussian { axis: -self.axis, sharpness: self.sharpness, log_amplitude: 0.0 };
         let strength = self.power / (TAU * integral(self.sharpness) * variance);
         (emission.product(&cloud), strength)
     }
@@ -103,8 +102,7 @@ impl Receiver {
         if !self.brdf.has_specular() {
             return lambert;
         }
-        let coupling =
-            self.brdf.transmission(self.view.z) * self.brdf.transmission(cosine.mean);
+        let coupling = self.brdf.transmission(self.view.z) * self.brdf.transmission(cosine.mean);
         let Reflection { integral, dominant } = match by {
             SpecularLobe::Anisotropic => anisotropic(self.brdf.alpha, self.view, axis, sharpness),
             SpecularLobe::Filtered => filtered(self.brdf.alpha, self.view, axis, sharpness),
