@@ -16,15 +16,18 @@ fn texels_are_the_virtual_lights_of_their_cells() {
                 let texels: Vec<LitTexel> = gpu.read(&map.texels).expect("read-back");
                 let surfaces: Vec<SurfaceRecord> = gpu.read(&map.surfaces).expect("read-back");
                 assert_eq!(texels.len(), lit.lights.len());
+                let fluxes = lit.lights.iter().flatten().map(|light| light.flux.length());
+                let largest = fluxes.fold(0.0, f32::max);
                 for ((texel, surface), light) in texels.iter().zip(&surfaces).zip(&lit.lights) {
                     let Some(light) = light else {
                         assert_eq!(texel.flux.max_element(), 0.0, "{name}");
                         continue;
                     };
                     let close = |a: glam::Vec3, b: glam::Vec3| (a - b).length() < 2e-6 * b.length();
-                    // The quotient of the cosines loses digits at the horizon.
+                    // The quotient of the cosines loses digits at the horizon, the rim of a spot the
+                    // difference of cosines.
                     let cosine = light.geometric_normal.dot(light.incoming);
-                    let bound = (5e-6 + 1e-6 / cosine) * light.flux.length();
+                    let bound = (5e-6 + 1e-6 / cosine) * light.flux.length() + 5e-6 * largest;
                     assert!(
                         (texel.flux - light.flux).length() < bound,
                         "{name} {texel:?} {light:?}"
@@ -62,7 +65,8 @@ fn refined_cells_add_up() {
     let expected = [sphere * f64::from(INTENSITY), sphere * f64::from(RADIUS).powi(2)];
     for side in [1, 3] {
         let [flux, area] = sums(side);
-        assert!((flux / expected[0] - 1.0).abs() < 1e-5, "{flux}");
+        // Interpolated normals on facets: the quotient of the two cosines.
+        assert!((flux / expected[0] - 1.0).abs() < 2e-4, "{flux}");
         // The facets lie inside the sphere, by 0.1 % of its radius.
         assert!((area / expected[1] - 1.0).abs() < 3e-3, "{area}");
     }
