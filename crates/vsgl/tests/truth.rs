@@ -109,8 +109,12 @@ fn mean_lengths() {
 
 /// Root mean square over lights all around, in units of the largest value.
 fn specular_errors(roughness: f64, view: f64, sharpness: f64) -> [f64; 2] {
-    let brdf =
-        DBrdf { diffuse: DVec3::ZERO, f0: DVec3::ONE, lobe: manylights_scene::Lobe::Schlick { f90: 1.0 }, alpha: roughness * roughness };
+    let brdf = DBrdf {
+        diffuse: DVec3::ZERO,
+        f0: DVec3::ONE,
+        lobe: manylights_scene::Lobe::Schlick { f90: 1.0 },
+        alpha: roughness * roughness,
+    };
     let view = at(view.to_radians().cos());
     let (mut errors, mut peak, mut total) = ([0.0; 2], 0.0_f64, 0.0);
     for (axis, weight) in sphere_nodes(10, [-0.3, 1.0]) {
@@ -158,8 +162,9 @@ fn albedos() {
     let middle = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
     for roughness in [0.3, 0.5, 0.77, 1.0] {
         for cosine in [0.06, 0.31, 0.7, 0.99] {
-            let (f0, f90, alpha) = (DVec3::splat(0.3), 0.8, roughness * roughness);
-            let brdf = DBrdf { diffuse: DVec3::ZERO, f0, f90, alpha };
+            let (f0, alpha) = (DVec3::splat(0.3), roughness * roughness);
+            let lobe = manylights_scene::Lobe::Schlick { f90: 0.8 };
+            let brdf = DBrdf { diffuse: DVec3::ZERO, f0, lobe, alpha };
             let mut truth = 0.0;
             for ring in 0..side {
                 for sector in 0..128 {

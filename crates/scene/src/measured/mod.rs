@@ -124,7 +124,6 @@ impl Measured {
 
     /// f(v, l) n·l in sr⁻¹ for unit directions above the horizon, in a frame with the normal as z and
     /// v in the x-z plane, x ≥ 0. Measurements are not quite reciprocal: v is the viewer's side.
-    #[allow(private_bounds, reason = "f32 or f64: the precisions that reflectances are written in")]
     pub(crate) fn eval<T: Real>(self, v: [T; 3], l: [T; 3]) -> [T; 3] {
         self.0.values.eval(v, l)
     }

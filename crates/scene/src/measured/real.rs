@@ -3,7 +3,7 @@
 use num_traits::{Float, FloatConst};
 
 /// f32 and f64.
-pub(super) trait Real: Float + FloatConst + From<f32> {
+pub(crate) trait Real: Float + FloatConst + From<f32> {
     /// A number that the tables hold.
     fn from_f32(value: f32) -> Self {
         value.into()
