@@ -170,9 +170,11 @@ fn albedos() {
                 for sector in 0..128 {
                     // cos² uniform.
                     let z = middle(ring).sqrt();
-                    let around = DVec2::from_angle(PI * (f64::from(sector) + 0.5) / 128.0);
+                    // Dense about the mirrored view, where grazing lobes are narrow.
+                    let turn = (f64::from(sector) + 0.5) / 128.0;
+                    let around = -DVec2::from_angle(PI * turn.powi(3));
                     let w = ((1.0 - z * z).sqrt() * around).extend(z);
-                    truth += brdf.eval(DVec3::Z, at(cosine), w).x;
+                    truth += 3.0 * turn * turn * brdf.eval(DVec3::Z, at(cosine), w).x;
                 }
             }
             truth *= PI / f64::from(side * 128);
