@@ -152,7 +152,7 @@ impl Shadows {
 ///
 /// # Errors
 /// Where the shader does not link.
-pub fn linked_shader(stack: u32) -> Result<String, Error> {
+pub(crate) fn linked_shader(stack: u32) -> Result<String, Error> {
     let hierarchy = format!("const STACK = {stack}u;\n");
     link("shadow", include_str!("shaders/shadow.wesl"), &[("hierarchy", &hierarchy)], &[])
 }

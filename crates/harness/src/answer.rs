@@ -51,6 +51,8 @@ pub(crate) struct Medians {
     pub(crate) runs: usize,
     /// Of the preparation.
     pub(crate) prepare_seconds: f64,
+    /// Of each pass, by the processor's own clock.
+    pub(crate) pass_seconds: BTreeMap<String, f64>,
     /// Value of the method's cost parameter.
     pub(crate) amount: u64,
     /// What the method counted for the first seed.
@@ -184,6 +186,7 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
         seconds,
         runs: done.len(),
         prepare_seconds: prepare.expect("there is a first"),
+        pass_seconds: pass_medians(&done.iter().map(|(.., done)| *done).collect::<Vec<_>>()),
         amount: first.2.amount,
         seed_rmse: first.2.errors.keys().map(rmse).collect(),
         bias: BTreeMap::new(),
@@ -192,6 +195,15 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
         key: first.1.key.clone(),
         errors: first.2.errors.keys().map(|r| (r.clone(), median_errors(&pictures, r))).collect(),
     }))
+}
+
+/// The median time of each pass of the first run over all runs.
+fn pass_medians(runs: &[&Done]) -> BTreeMap<String, f64> {
+    let passes = runs[0].pass_seconds.keys().filter_map(|pass| {
+        let times = runs.iter().filter_map(|done| done.pass_seconds.get(pass).copied());
+        Some((pass.clone(), median(times)?))
+    });
+    passes.collect()
 }
 
 /// The first run's, at the median times of all runs.
@@ -217,6 +229,7 @@ fn median_errors(pictures: &[&Done], reference: &str) -> Comparison {
         ssim: of(&|c| side(c).ssim),
         rel_mse: of(&|c| side(c).rel_mse),
         smape: of(&|c| side(c).smape),
+        rel_p999: of(&|c| side(c).rel_p999),
     };
     Comparison {
         linear: errors(&|c| c.linear),
@@ -238,7 +251,8 @@ mod tests {
     const FLOOR: f64 = 0.01;
 
     fn errors(rmse: f64) -> Errors {
-        Errors { rmse, mse: rmse * rmse, mae: 0.0, psnr: 0.0, ssim: 0.0, rel_mse: 0.0, smape: 0.0 }
+        let [mae, psnr, ssim, rel_mse, smape, rel_p999] = [0.0; 6];
+        Errors { rmse, mse: rmse * rmse, mae, psnr, ssim, rel_mse, smape, rel_p999 }
     }
 
     fn row_of(variant: usize, result: RowResult) -> Row {
@@ -259,6 +273,7 @@ mod tests {
             seconds,
             runs: 1,
             prepare_seconds: 0.0,
+            pass_seconds: BTreeMap::new(),
             amount: 1,
             counters,
             key: String::new(),

@@ -30,6 +30,9 @@ pub(crate) struct Inputs {
     pub(crate) repetition: u32,
     /// Light paths.
     pub(crate) transport: String,
+    /// Of the last segment, where it is not the method's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) visibility: Option<String>,
     /// Width, height in pixels.
     pub(crate) resolution: [u32; 2],
     /// Factor from radiance to display-referred values.
@@ -56,6 +59,7 @@ impl Inputs {
             seed: 0,
             repetition: 0,
             transport: experiment.transport.to_string(),
+            visibility: variant.unusual_visibility().map(|visibility| visibility.to_string()),
             resolution: experiment.scale.resolution,
             exposure: scene.exposure,
             references: experiment.references.iter().map(|v| (v.to_string(), samples)).collect(),
@@ -73,6 +77,7 @@ impl Inputs {
     pub(crate) fn label(&self) -> String {
         let mut words = vec![self.method.clone()];
         words.extend(self.parameters.iter().map(|(name, value)| format!("{name}={value}")));
+        words.extend(self.visibility.iter().map(|visibility| format!("visibility={visibility}")));
         words.extend(match self.budget {
             Budget::Count => None,
             Budget::Seconds(seconds) => Some(format!("time={seconds}s")),
@@ -202,6 +207,7 @@ mod tests {
             seed: 1,
             repetition: 0,
             transport: "all".into(),
+            visibility: None,
             resolution: [16, 16],
             exposure: 1.5,
             references: BTreeMap::from([("traced".into(), 16)]),
@@ -218,6 +224,7 @@ mod tests {
             ssim: 0.5,
             rel_mse: 0.3,
             smape: 0.2,
+            rel_p999: 0.9,
         };
         let comparison =
             Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };

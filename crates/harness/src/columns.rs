@@ -12,6 +12,8 @@ pub(crate) enum Column {
     Time,
     /// First and third quartile of the time.
     Quartiles,
+    /// Time of each pass by the processor's own clock; in no table that does not ask for it.
+    Passes,
     /// Time as a multiple of the baseline's.
     TimeRatio,
     /// RMSE of sRGB values.
@@ -28,11 +30,13 @@ pub(crate) enum Column {
     Ssim,
     /// RMSE of radiance.
     RmseLinear,
+    /// 99.9th percentile of the relative error of radiance: spikes.
+    Spikes,
 }
 
 impl Column {
-    /// In the order in which they stand where an experiment names none.
-    pub(crate) const ALL: [Self; 11] = [
+    /// Those of an experiment that names none, in their order.
+    pub(crate) const ALL: [Self; 12] = [
         Self::Counts,
         Self::Time,
         Self::Quartiles,
@@ -44,6 +48,7 @@ impl Column {
         Self::Psnr,
         Self::Ssim,
         Self::RmseLinear,
+        Self::Spikes,
     ];
 
     /// Heading.
@@ -52,6 +57,7 @@ impl Column {
             Self::Counts => "counts",
             Self::Time => "time ms",
             Self::Quartiles => "quartiles",
+            Self::Passes => "passes ms",
             Self::TimeRatio | Self::RmseRatio => "÷ base",
             Self::Rmse => "RMSE",
             Self::Bias => "bias",
@@ -59,6 +65,7 @@ impl Column {
             Self::Psnr => "PSNR dB",
             Self::Ssim => "SSIM",
             Self::RmseLinear => "RMSE linear",
+            Self::Spikes => "p99.9 relative",
         }
     }
 }

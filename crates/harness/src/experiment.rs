@@ -7,10 +7,11 @@
 //! transport = "indirect-1"
 //! references = ["traced", "ignored"] # visibility of their last segment; the truth first
 //! errors = [0.02]                    # the time to reach these RMSEs is read off the curves
-//! columns = ["counts", "time", "rmse"] # of the table; all of them where left out
+//! columns = ["counts", "time", "rmse"] # of the table; see columns.rs
 //! [[methods]]                        # any number; all combinations of the values run
 //! id = "…"
 //! parameters = { samples = [16, 64] }
+//! visibility = "traced"              # or "ignored", or a list; left out: the method's own
 //! [[methods]]
 //! id = "…"
 //! budget = "time"                    # the harness sets the method's cost parameter
@@ -28,13 +29,12 @@
 //! [[crops]]                          # shown enlarged, the same for all methods
 //! scene = "cornell"
 //! rectangle = [0.5, 0.5, 0.25, 0.25] # left, top, width, height in parts of the picture
-//! [[published]]                      # a number of a paper, set beside ours
+//! [[published]]                      # numbers of a paper, set beside ours
 //! source = "…"
 //! scene = "cornell"
 //! method = { id = "…", parameters = { samples = 64 } }
 //! reference = "traced"
-//! metric = "rmse"                    # of sRGB values
-//! value = 0.01
+//! values = { rmse = 0.01 }           # of sRGB values; "time_ratio" is to the baseline
 //! ```
 //!
 //! A curve runs along the first parameter, in the method's own order, that has a list of values,
@@ -210,11 +210,10 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
         return Err("exposures: factors are positive numbers".into());
     }
     file.crops.iter().try_for_each(Crop::check)?;
-    let published = file
-        .published
-        .iter()
-        .map(|entry| entry.resolve(&variants, &times, &references))
-        .collect::<Result<_, _>>()?;
+    let mut published = Vec::new();
+    for entry in &file.published {
+        published.extend(entry.resolve(&variants, &times, &references)?);
+    }
     Ok(Experiment {
         errors: file.errors,
         columns: file.columns.unwrap_or_else(|| Column::ALL.to_vec()),

@@ -186,6 +186,7 @@ mod tests {
             seed,
             repetition: 0,
             transport: "all".into(),
+            visibility: None,
             resolution: [16, 16],
             exposure: 1.0,
             references: BTreeMap::new(),

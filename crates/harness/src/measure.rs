@@ -10,7 +10,7 @@ use manylights_metrics::RadianceImage;
 pub(crate) struct Measured {
     /// The picture.
     pub(crate) image: RadianceImage,
-    /// Visibility of the last segment that the method agreed to.
+    /// What was computed.
     pub(crate) transport: Transport,
     /// Wall clock of `prepare`: pipelines, acceleration structures.
     pub(crate) prepare_seconds: f64,
@@ -26,30 +26,21 @@ pub(crate) struct Measured {
 /// the run to look at.
 pub(crate) type Look<'l> = &'l mut dyn FnMut(Progress, f64, &mut dyn Run) -> Result<(), Error>;
 
-/// Prepares, steps to the end and resolves. Where `visibility` is left open, the method gets
-/// [`Visibility::Traced`] if it does not decline it, else [`Visibility::Ignored`].
+/// Prepares, steps to the end and resolves. `visibility` replaces that of the frame's transport, where
+/// it has one.
 ///
 /// # Errors
 /// Those of the method.
 pub(crate) fn measure(
     method: &dyn Method,
     frame: &Frame<'_>,
-    visibility: Option<Visibility>,
+    visibility: Visibility,
     parameters: &Parameters,
     look: Look<'_>,
 ) -> Result<Measured, Error> {
-    let mut clock = Instant::now();
-    let mut prepared = None;
-    for transport in candidates(frame.transport, visibility) {
-        clock = Instant::now();
-        let attempt = method.prepare(&Frame { transport, ..*frame }, parameters);
-        let declined = matches!(attempt, Err(Error::Declined(_)));
-        prepared = Some(attempt.map(|run| (run, transport)));
-        if !declined {
-            break;
-        }
-    }
-    let (mut run, transport) = prepared.expect("there is at least one candidate")?;
+    let transport = with_visibility(frame.transport, visibility);
+    let clock = Instant::now();
+    let mut run = method.prepare(&Frame { transport, ..*frame }, parameters)?;
     let prepare_seconds = clock.elapsed().as_secs_f64();
     let step_seconds = step_to_the_end(run.as_mut(), look)?.as_secs_f64();
     let image = run.resolve()?;
@@ -78,15 +69,6 @@ fn step_to_the_end(run: &mut dyn Run, look: Look<'_>) -> Result<Duration, Error>
             return Ok(elapsed);
         }
     }
-}
-
-fn candidates(transport: Transport, visibility: Option<Visibility>) -> Vec<Transport> {
-    let Transport::Indirect { bounces: 1, .. } = transport else { return vec![transport] };
-    let choices = match visibility {
-        Some(visibility) => vec![visibility],
-        None => vec![Visibility::Traced, Visibility::Ignored],
-    };
-    choices.into_iter().map(|visibility| Transport::Indirect { bounces: 1, visibility }).collect()
 }
 
 /// The visibility in a transport, where it is a choice.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use std::ops::RangeInclusive;
 
-use manylights_method::{Method, ParameterKind, Parameters};
+use manylights_method::{Method, ParameterKind, Parameters, Visibility};
 use serde::{Deserialize, Serialize};
 
 use crate::numbers::milliseconds;
@@ -32,6 +32,8 @@ pub(crate) struct Variant {
     /// The parameter along which a curve runs: the first one declared that the experiment sweeps,
     /// else the cost parameter.
     pub(crate) swept: &'static str,
+    /// Of the last segment.
+    pub(crate) visibility: Visibility,
     /// What it may cost.
     pub(crate) budget: Budget,
 }
@@ -73,6 +75,11 @@ impl Variant {
         given.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
+    /// The visibility, where it is not the method's own.
+    pub(crate) fn unusual_visibility(&self) -> Option<Visibility> {
+        Some(self.visibility).filter(|&visibility| visibility != self.method.visibility())
+    }
+
     fn text(&self, wanted: impl Fn(&str) -> bool) -> String {
         let default = Parameters::new(self.method.parameters(), []).expect("nothing to refuse");
         let mut words = vec![self.method.id().to_owned()];
@@ -81,6 +88,7 @@ impl Variant {
                 words.push(format!("{name}={value}"));
             }
         }
+        words.extend(self.unusual_visibility().map(|chosen| format!("visibility={chosen}")));
         words.join(" ")
     }
 }
@@ -89,6 +97,7 @@ impl PartialEq for Variant {
     fn eq(&self, other: &Self) -> bool {
         self.method.id() == other.method.id()
             && self.parameters == other.parameters
+            && self.visibility == other.visibility
             && self.budget == other.budget
     }
 }

@@ -1,9 +1,12 @@
 //! Numbers that a paper published, set beside ours.
 
+use std::collections::BTreeMap;
+
 use manylights_method::Visibility;
 use manylights_metrics::{METRICS, MetricInfo};
 use serde::Deserialize;
 
+use crate::answer::Medians;
 use crate::names;
 use crate::plan::{Budget, Variant};
 use crate::sweep;
@@ -17,12 +20,41 @@ pub(crate) struct Published {
     pub(crate) scene: String,
     /// Index into the experiment's variants.
     pub(crate) variant: usize,
-    /// Ours is taken against this one.
-    pub(crate) reference: Visibility,
-    /// Of sRGB values.
-    pub(crate) metric: &'static MetricInfo,
+    /// What is compared.
+    pub(crate) quantity: Quantity,
     /// What the paper prints.
     pub(crate) value: f64,
+}
+
+/// What a published number measures.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Quantity {
+    /// An error of sRGB values against a reference.
+    Error(&'static MetricInfo, Visibility),
+    /// Time as a multiple of the baseline's: what of a paper's times holds on another machine.
+    TimeRatio,
+}
+
+impl Quantity {
+    const TIME_RATIO: &'static str = "time_ratio";
+
+    /// As the experiment file says it: metric and reference.
+    pub(crate) fn names(&self) -> [String; 2] {
+        match self {
+            Self::Error(metric, reference) => [metric.id.to_owned(), reference.to_string()],
+            Self::TimeRatio => [Self::TIME_RATIO.to_owned(), String::new()],
+        }
+    }
+
+    /// Ours.
+    pub(crate) fn value(&self, of: &Medians, baseline: Option<&Medians>) -> Option<f64> {
+        match self {
+            Self::Error(metric, reference) => {
+                Some((metric.value)(&of.errors[&reference.to_string()].display))
+            }
+            Self::TimeRatio => Some(of.seconds.median / baseline?.seconds.median),
+        }
+    }
 }
 
 /// `[[published]]` of an experiment file.
@@ -32,13 +64,14 @@ pub(crate) struct Entry {
     source: String,
     scene: String,
     method: sweep::Entry,
-    reference: String,
-    metric: String,
-    value: f64,
+    /// Of errors.
+    reference: Option<String>,
+    /// By metric.
+    values: BTreeMap<String, f64>,
 }
 
 impl Entry {
-    /// Finds what the number is compared with.
+    /// Finds what the numbers are compared with.
     ///
     /// # Errors
     /// One line where the experiment has no such variant, reference or metric.
@@ -47,7 +80,7 @@ impl Entry {
         variants: &[Variant],
         times: &[Budget],
         references: &[Visibility],
-    ) -> Result<Published, String> {
+    ) -> Result<Vec<Published>, String> {
         let at = |reason: String| format!("published ({}): {reason}", self.source);
         let [wanted] = &self.method.variants(times).map_err(at)?[..] else {
             return Err(at("parameters and times must be single values".into()));
@@ -55,14 +88,26 @@ impl Entry {
         let variant = variants.iter().position(|variant| variant == wanted);
         let variant =
             variant.ok_or_else(|| at(format!("`{}` is not among the methods", wanted.label())))?;
-        let reference = self.reference.parse().map_err(at)?;
-        if !references.contains(&reference) {
-            return Err(at(format!("`{reference}` is not among the references")));
+        let number = |(metric, &value): (&String, &f64)| {
+            let quantity = self.quantity(metric, references).map_err(at)?;
+            let (source, scene) = (self.source.clone(), self.scene.clone());
+            Ok(Published { source, scene, variant, quantity, value })
+        };
+        self.values.iter().map(number).collect()
+    }
+
+    fn quantity(&self, metric: &str, references: &[Visibility]) -> Result<Quantity, String> {
+        if metric == Quantity::TIME_RATIO {
+            return Ok(Quantity::TimeRatio);
         }
-        let metric = METRICS.iter().find(|metric| metric.id == self.metric);
-        let ids = METRICS.iter().map(|metric| metric.id);
-        let metric = metric.ok_or_else(|| at(names::unknown("metric", &self.metric, ids)))?;
-        let (source, scene, value) = (self.source.clone(), self.scene.clone(), self.value);
-        Ok(Published { source, scene, variant, reference, metric, value })
+        let ids = METRICS.iter().map(|metric| metric.id).chain([Quantity::TIME_RATIO]);
+        let known = METRICS.iter().find(|known| known.id == metric);
+        let known = known.ok_or_else(|| names::unknown("metric", metric, ids))?;
+        let reference = self.reference.as_deref().ok_or("an error needs a `reference`")?;
+        let reference = reference.parse()?;
+        if !references.contains(&reference) {
+            return Err(format!("`{reference}` is not among the references"));
+        }
+        Ok(Quantity::Error(known, reference))
     }
 }

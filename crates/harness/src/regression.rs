@@ -152,8 +152,8 @@ mod tests {
     use manylights_metrics::Errors;
 
     fn cell(seed: u64, rmse: f64, program: &str) -> Cell {
-        let errors =
-            Errors { rmse, mse: 0.0, mae: 0.0, psnr: 0.0, ssim: 0.0, rel_mse: 0.0, smape: 0.0 };
+        let [mse, mae, psnr, ssim, rel_mse, smape, rel_p999] = [0.0; 7];
+        let errors = Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999 };
         let comparison =
             Comparison { linear: errors, display: errors, linear_floor: 0.0, display_floor: 0.0 };
         let done = Done {
@@ -176,6 +176,7 @@ mod tests {
             seed,
             repetition: 0,
             transport: "all".into(),
+            visibility: None,
             resolution: [16, 16],
             exposure: 1.0,
             references: BTreeMap::new(),

@@ -124,11 +124,11 @@ impl SceneRun<'_, '_> {
         look: Look<'_>,
     ) -> Result<Measured, Error> {
         let experiment = self.session.experiment;
-        let Variant { method, parameters, .. } = &experiment.variants[turn.variant];
+        let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
         let frame = self.stage.frame(experiment.transport, turn.seed);
         let set = |amount| parameters.with_count(method.cost_parameter(), amount);
         let parameters = amount.map_or_else(|| parameters.clone(), set);
-        measure::measure(*method, &frame, None, &parameters, look)
+        measure::measure(*method, &frame, *visibility, &parameters, look)
     }
 
     /// As [`Self::measure`], looked at whenever the work has doubled, where the method is progressive.

@@ -1,5 +1,6 @@
 //! Sweeps: from lists of values to variants.
 
+use manylights_method::Visibility;
 use serde::Deserialize;
 
 use crate::plan::{Budget, Variant};
@@ -12,8 +13,17 @@ pub(crate) struct Entry {
     id: String,
     #[serde(default)]
     parameters: toml::Table,
+    visibility: Option<Seen>,
     #[serde(default)]
     budget: Kind,
+}
+
+/// One visibility of the last segment or several.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "visibility is \"traced\", \"ignored\" or a list of them")]
+enum Seen {
+    One(String),
+    Each(Vec<String>),
 }
 
 /// What bounds the work of a method.
@@ -44,12 +54,30 @@ impl Entry {
         let names = method.parameters().iter().map(|info| info.name);
         let swept = names.into_iter().find(|name| is_list(name));
         let swept = swept.unwrap_or(method.cost_parameter());
-        let variant = |row: &Vec<(&str, String)>, &budget: &Budget| {
-            let pairs = row.iter().map(|(key, text)| (*key, text.as_str()));
-            let parameters = settings::parameters(method, pairs)?;
-            Ok(Variant { method, parameters, swept, budget })
+        let mut variants = Vec::new();
+        for visibility in self.visibilities(method.visibility())? {
+            for row in &grid {
+                let pairs = row.iter().map(|(key, text)| (*key, text.as_str()));
+                let parameters = settings::parameters(method, pairs)?;
+                variants.extend(budgets.iter().map(|&budget| {
+                    let parameters = parameters.clone();
+                    Variant { method, parameters, swept, visibility, budget }
+                }));
+            }
+        }
+        Ok(variants)
+    }
+
+    fn visibilities(&self, own: Visibility) -> Result<Vec<Visibility>, String> {
+        let texts = match &self.visibility {
+            None => return Ok(vec![own]),
+            Some(Seen::One(text)) => std::slice::from_ref(text),
+            Some(Seen::Each(texts)) if texts.is_empty() => {
+                return Err(format!("methods: `{}` has no visibility", self.id));
+            }
+            Some(Seen::Each(texts)) => texts,
         };
-        grid.iter().flat_map(|row| budgets.iter().map(move |budget| variant(row, budget))).collect()
+        texts.iter().map(|text| text.parse()).collect()
     }
 
     fn budgets<'b>(&self, cost: &str, times: &'b [Budget]) -> Result<&'b [Budget], String> {

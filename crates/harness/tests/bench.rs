@@ -25,8 +25,7 @@ source = "nobody"
 scene = "trio"
 method = { id = "reference", parameters = { samples = 16 } }
 reference = "traced"
-metric = "psnr"
-value = 20.0
+values = { psnr = 20.0 }
 [profiles.quick]
 resolution = [24, 16]
 reference_samples = 64

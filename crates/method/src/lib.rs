@@ -102,6 +102,9 @@ pub trait Method: Sync {
     /// names a time, its value is searched for.
     fn cost_parameter(&self) -> &'static str;
 
+    /// Of the last segment, where nobody says: what its source computes.
+    fn visibility(&self) -> Visibility;
+
     /// Whether the picture after every step estimates the final one, so that one run gives a whole
     /// curve of error against time.
     fn is_progressive(&self) -> bool;

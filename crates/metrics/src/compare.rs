@@ -31,6 +31,9 @@ pub struct Errors {
     /// Symmetric mean absolute relative error, `mean(|x − r| / (|x| + |r|))` with 0/0 = 0, in
     /// `[0, 1]`. Without an ε, so that it does not depend on the scale.
     pub smape: f64,
+    /// 99.9th percentile (nearest rank) of `|x − r| / √(r² + 0.01)`, the root of the terms of
+    /// `rel_mse`: what spikes do, which means hardly show.
+    pub rel_p999: f64,
 }
 
 /// A metric as tables and lists show it.
@@ -91,9 +94,15 @@ pub const METRICS: &[MetricInfo] = &[
         smaller_is_better: true,
         value: |errors| errors.smape,
     },
+    MetricInfo {
+        id: "rel_p999",
+        formula: "99.9th percentile, nearest rank, of |x - r| / sqrt(r^2 + 0.01)",
+        smaller_is_better: true,
+        value: |errors| errors.rel_p999,
+    },
 ];
 
-/// ε of [`Errors::rel_mse`].
+/// ε of [`Errors::rel_mse`] and [`Errors::rel_p999`].
 const RELATIVE_EPSILON: f64 = 0.01;
 
 /// Compares the values as they are. `range` is the peak of [`Errors::psnr`] and the dynamic range L
@@ -123,6 +132,7 @@ pub fn compare(
         ssim: ssim::mean(image, reference, range),
         rel_mse: sums.relative_squared / count,
         smape: sums.symmetric / count,
+        rel_p999: relative_percentile(image, reference, 0.999),
     })
 }
 
@@ -167,6 +177,17 @@ fn check(image: &RadianceImage, reference: &RadianceImage) -> Result<(), Error> 
     }
     image.check_finite("image")?;
     reference.check_finite("reference")
+}
+
+/// The smallest relative error that at least `share` of the components do not exceed.
+fn relative_percentile(image: &RadianceImage, reference: &RadianceImage, share: f64) -> f64 {
+    let components = image.pixels.as_flattened().iter().zip(reference.pixels.as_flattened());
+    let mut errors: Vec<f64> = components
+        .map(|(&x, &r)| (f64::from(x), f64::from(r)))
+        .map(|(x, r)| (x - r).abs() / (r * r + RELATIVE_EPSILON).sqrt())
+        .collect();
+    let rank = (share * errors.len() as f64).ceil() as usize;
+    *errors.select_nth_unstable_by(rank.saturating_sub(1), f64::total_cmp).1
 }
 
 /// Sums over the components of some pixels.

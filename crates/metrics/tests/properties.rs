@@ -33,6 +33,7 @@ proptest! {
         for found in [errors(&a, &a, 1.0), compare_display(&a, &a, exposure).expect("comparable")] {
             prop_assert_eq!((found.rmse, found.mse, found.mae), (0.0, 0.0, 0.0));
             prop_assert_eq!((found.rel_mse, found.smape, found.psnr), (0.0, 0.0, f64::INFINITY));
+            prop_assert_eq!(found.rel_p999, 0.0);
             prop_assert!((found.ssim - 1.0).abs() < 1e-12, "ssim {}", found.ssim);
         }
     }

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use manylights_method::{
     Error, Frame, Method, ParameterInfo, ParameterKind, Parameters, PassTime, Processor, Progress,
-    Run,
+    Run, Visibility,
 };
 use manylights_metrics::RadianceImage;
 
@@ -46,6 +46,10 @@ impl Method for PathTracer {
 
     fn cost_parameter(&self) -> &'static str {
         "samples"
+    }
+
+    fn visibility(&self) -> Visibility {
+        Visibility::Traced
     }
 
     fn is_progressive(&self) -> bool {

@@ -22,7 +22,8 @@ mod params;
 use glam::Vec3;
 use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord, VirtualLight, distribute};
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
+    many_light_frame,
 };
 
 use gather::LAMBERT_CAPACITY;
@@ -56,6 +57,10 @@ impl Method for Vpl {
 
     fn cost_parameter(&self) -> &'static str {
         "lights"
+    }
+
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
     }
 
     /// Half of the lights is half of the flux.

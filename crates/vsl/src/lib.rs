@@ -49,7 +49,8 @@ mod spherical_light;
 use glam::Vec3;
 use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, many_light_frame,
+    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
+    many_light_frame,
 };
 
 use gather::CAPACITY;
@@ -84,6 +85,10 @@ impl Method for Vsl {
 
     fn cost_parameter(&self) -> &'static str {
         "lights"
+    }
+
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
     }
 
     /// Half of the lights is half of the flux.

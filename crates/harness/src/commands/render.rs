@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let measured = measure::measure(
         method,
         &stage.frame(arguments.transport, arguments.seed),
-        arguments.visibility,
+        arguments.visibility.unwrap_or(method.visibility()),
         &parameters,
         &mut |at, _, _| {
             progress.set(at.done, at.total);

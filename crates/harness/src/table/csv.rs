@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use manylights_metrics::METRICS;
@@ -7,13 +8,13 @@ use crate::experiment::Experiment;
 use crate::plan::{Budget, Variant};
 
 /// Columns before those of the metrics.
-const COLUMNS: usize = 19;
+const COLUMNS: usize = 20;
 
 /// The table for programs: one line for each scene, variant and reference.
 pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
     let mut text = String::from(
         "scene,method,parameters,time_budget,machine,reference,outcome,rank,rank_shared,amount,runs,seconds,\
-         seconds_lower,seconds_upper,prepare_seconds,linear_floor,display_floor,display_bias,\
+         seconds_lower,seconds_upper,passes,prepare_seconds,linear_floor,display_floor,display_bias,\
          display_deviation",
     );
     for space in ["linear", "display"] {
@@ -58,14 +59,11 @@ fn csv_line(
             fields.extend([medians.amount.to_string(), medians.runs.to_string()]);
             let seconds = medians.seconds;
             let bias = medians.bias.get(reference);
-            let numbers = [
-                seconds.median,
-                seconds.lower,
-                seconds.upper,
-                medians.prepare_seconds,
-                comparison.linear_floor,
-                comparison.display_floor,
-            ];
+            let times = [seconds.median, seconds.lower, seconds.upper];
+            fields.extend(times.map(|number| number.to_string()));
+            fields.push(quoted(&passes(&medians.pass_seconds)));
+            let numbers =
+                [medians.prepare_seconds, comparison.linear_floor, comparison.display_floor];
             let metrics = values(&comparison.linear).chain(values(&comparison.display));
             fields.extend(numbers.map(|number| number.to_string()));
             let split = [bias.map(|split| split.bias), bias.map(|split| split.deviation)];
@@ -77,6 +75,13 @@ fn csv_line(
     }
     fields.resize(COLUMNS + 2 * METRICS.len(), String::new());
     fields.join(",")
+}
+
+/// As `name=seconds`, separated by spaces of which names have none.
+fn passes(seconds: &BTreeMap<String, f64>) -> String {
+    let passes =
+        seconds.iter().map(|(name, seconds)| format!("{}={seconds}", name.replace(' ', "-")));
+    passes.collect::<Vec<_>>().join(" ")
 }
 
 /// Without the one that a time budget sets.

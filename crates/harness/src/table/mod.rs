@@ -69,7 +69,11 @@ pub(crate) fn of_scene(experiment: &Experiment, scene: &SceneAnswer) -> Vec<Tabl
 fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &str) -> Table {
     let columns = shown(experiment, scene);
     let mut heading = vec![("rank", true), ("method", false)];
-    heading.extend(columns.iter().map(|column| (column.title(), *column != Column::Counts)));
+    heading.extend(
+        columns
+            .iter()
+            .map(|column| (column.title(), !matches!(column, Column::Counts | Column::Passes))),
+    );
     let ranks = scene.ranks(reference);
     let lines = scene.rows.iter().zip(ranks).map(|(row, rank)| {
         let several = scene.rows.iter().any(|other| other.machine != row.machine);
@@ -145,6 +149,8 @@ impl Place<'_> {
             Column::Psnr => format!("{:.2}", errors.display.psnr),
             Column::Ssim => format!("{:.4}", errors.display.ssim),
             Column::RmseLinear => short(errors.linear.rmse),
+            Column::Spikes => short(errors.linear.rel_p999),
+            Column::Passes => passes(medians),
         }
     }
 
@@ -168,6 +174,12 @@ impl Place<'_> {
         let is_baseline = self.row.variant == self.experiment.baseline;
         if !is_baseline && differs == Some(false) { " ≈" } else { "" }
     }
+}
+
+fn passes(medians: &Medians) -> String {
+    let passes = medians.pass_seconds.iter();
+    let passes = passes.map(|(name, &seconds)| format!("{name} {}", milliseconds(seconds)));
+    passes.collect::<Vec<_>>().join(", ")
 }
 
 fn counts(medians: &Medians) -> String {
@@ -214,16 +226,18 @@ pub(crate) fn published(experiment: &Experiment, scenes: &[SceneAnswer]) -> Opti
     let line = |published: &crate::published::Published| {
         let scene = scenes.iter().find(|scene| scene.scene == published.scene);
         let same = |row: &&Row| row.variant == published.variant;
-        let medians = scene.and_then(|scene| scene.rows.iter().find(same)?.medians());
-        let ours = medians.map(|medians| {
-            (published.metric.value)(&medians.errors[&published.reference.to_string()].display)
+        let row = scene.and_then(|scene| Some((scene, scene.rows.iter().find(same)?)));
+        let ours = row.and_then(|(scene, row)| {
+            let baseline = scene.baseline(row).and_then(Row::medians);
+            published.quantity.value(row.medians()?, baseline)
         });
+        let [metric, reference] = published.quantity.names();
         vec![
             published.source.clone(),
             published.scene.clone(),
             experiment.variants[published.variant].label(),
-            published.reference.to_string(),
-            published.metric.id.to_owned(),
+            reference,
+            metric,
             short(published.value),
             ours.map_or_else(|| "none".to_owned(), short),
             ours.map_or_else(String::new, |ours| short(ours / published.value)),
