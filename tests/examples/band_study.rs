@@ -6,7 +6,8 @@
 //! The energy is ∫ f² cos² over the hemisphere, summed over red, green and blue; n bands capture the sum
 //! of their squared coefficients. Directions lie on Gauss–Legendre rings, equidistant on each ring; a
 //! reflectance that does not depend on the side of the plane of incidence has coefficients with m ≥ 0
-//! alone, and they are sums over rings of the rings' cosine transforms.
+//! alone, and they are sums over rings of the rings' cosine transforms. Of measurements, which are not
+//! quite alike on both sides, one side is taken for both.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
