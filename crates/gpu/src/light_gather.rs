@@ -114,6 +114,11 @@ impl LightGather {
         })
     }
 
+    /// Most batches of a submission that casts shadow rays.
+    pub fn traced_batches(&self) -> Option<usize> {
+        self.shadows.as_ref().map(Shadows::batches_a_submission)
+    }
+
     /// The lights in uniform memory.
     ///
     /// # Errors

@@ -16,7 +16,8 @@ use crate::{
 
 /// Most lights of a batch, as `shaders/shadow.wesl` declares its array: a bit each and pixel.
 const MOST_LIGHTS: usize = 256;
-/// Rays of a batch, where so many lights are allowed: about ten seconds on a slow processor.
+/// Rays of a batch, where a batch of 32 lights has fewer: some ten seconds at the rate of a software
+/// adapter on two cores (`results/shadows`).
 const RAYS: usize = 1 << 24;
 /// Lights in a word.
 const WORD: usize = 32;
@@ -117,6 +118,11 @@ impl Shadows {
     /// Lights of which [`Shadows::hidden`] has a bit.
     pub(crate) fn lights_a_batch(&self) -> usize {
         self.lights_a_batch
+    }
+
+    /// Batches whose rays go into one submission.
+    pub(crate) fn batches_a_submission(&self) -> usize {
+        (RAYS / (self.pixels as usize * self.lights_a_batch)).max(1)
     }
 
     /// The layout that the shader declares for a batch of [`Center`]s.

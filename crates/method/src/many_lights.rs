@@ -55,10 +55,11 @@ impl<'a> ManyLightRun<'a> {
         batches_a_step: usize,
         place: impl Fn(&LightGather) -> PlacedLights + 'a,
     ) -> Self {
+        let most = gather.traced_batches().unwrap_or(usize::MAX);
         Self {
             frame,
             gather,
-            batches_a_step: batches_a_step.max(1),
+            batches_a_step: batches_a_step.clamp(1, most),
             place: Box::new(place),
             placed: None,
             next: 0,

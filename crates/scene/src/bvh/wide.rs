@@ -79,6 +79,8 @@ impl Child {
     const COUNT_BITS: u32 = 2;
 
     pub(super) const ROOT: Self = Self(0);
+    /// A leaf without blocks.
+    const NONE: Self = Self(Self::LEAF);
 
     fn node(index: usize) -> Self {
         assert!(index < Self::LEAF as usize, "more than 2³¹ nodes");
@@ -167,9 +169,8 @@ impl Wide {
     fn depth(&self, node: usize) -> u32 {
         let Some(node) = self.nodes.get(node) else { return 0 };
         let inner = node.children.iter().filter_map(|child| match child.target() {
-            // Children that there are not are all the root.
-            Target::Node(index) if index > 0 => Some(self.depth(index)),
-            _ => None,
+            Target::Node(index) => Some(self.depth(index)),
+            Target::Blocks(_) => None,
         });
         1 + inner.max().unwrap_or(0)
     }
@@ -184,7 +185,7 @@ impl Wide {
 impl Node {
     const EMPTY: Self = {
         let (low, high) = ([f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]);
-        Self { planes: [low, high, low, high, low, high], children: [Child::ROOT; WIDTH] }
+        Self { planes: [low, high, low, high, low, high], children: [Child::NONE; WIDTH] }
     };
 }
 

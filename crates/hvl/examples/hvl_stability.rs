@@ -1,6 +1,6 @@
 //! Hard cases of the gather: the adapter's f32 against the f64 oracle, written to
 //! `results/stability/hvl.md`. Run with
-//! `cargo run --release -p manylights-hvl --example stability`.
+//! `cargo run --release -p manylights-hvl --example hvl_stability`.
 
 use std::fmt::Write as _;
 
@@ -151,7 +151,7 @@ fn main() {
     let report = gpu.report();
     let mut table = format!(
         "# Harmonics virtual lights: hard cases\n\n\
-         `cargo run --release -p manylights-hvl --example stability` on {} ({} {}).\n\n\
+         `cargo run --release -p manylights-hvl --example hvl_stability` on {} ({} {}).\n\n\
          Worst difference of the adapter's f32 to the f64 oracle over each family of light and surface \
          pairs, relative to the true radiance or to what a white Lambertian surface would send, \
          whichever is larger; the largest true radiance shows how hard the family is. Non-finite \

@@ -1,6 +1,6 @@
 //! What a number of bands leaves of the integral over the sphere, and what one circular lobe holds of
 //! the specular one: written to `results/hvl-bands/table.md`. Run with
-//! `cargo run --release -p manylights-hvl --example bands`.
+//! `cargo run --release -p manylights-hvl --example hvl_bands`.
 
 use std::fmt::Write as _;
 
@@ -86,7 +86,7 @@ fn surface(brdf: Brdf) -> SurfaceRecord {
 
 fn main() {
     let mut table = "# Harmonics virtual lights: bands\n\n\
-         `cargo run --release -p manylights-hvl --example bands`, f64 on the processor.\n\n\
+         `cargo run --release -p manylights-hvl --example hvl_bands`, f64 on the processor.\n\n\
          Relative RMS error of the radiance that a purely specular GGX surface reflects of spheres of \
          0.2 rad all over its hemisphere, seen from 0°, 40° and 75°, against a quadrature over each \
          sphere. `w` is under a Hann window as wide as the expansion, `d` under the weakest sinc⁴ \

@@ -1,6 +1,6 @@
 //! What expanding the emission of glossy lights costs and changes, on `trio`: written to
 //! `results/hvl-emission/table.md`. Run with
-//! `cargo run --release -p manylights-hvl --example emission`.
+//! `cargo run --release -p manylights-hvl --example hvl_emission`.
 
 use std::fmt::Write as _;
 
@@ -55,7 +55,7 @@ fn main() {
     let truth = picture(&frame, 0).0;
     let mut table = format!(
         "# Harmonics virtual lights: emission of glossy lights\n\n\
-         `cargo run --release -p manylights-hvl --example emission` on {} ({} {}).\n\n\
+         `cargo run --release -p manylights-hvl --example hvl_emission` on {} ({} {}).\n\n\
          `trio`, 160×120, 400 lights, 5 bands at the receiver. Relative RMS difference of the picture \
          to the one whose lights emit by their reflectance itself; median time of the gather over \
          {ROUNDS} interleaved rounds, relative to that one's.\n\n\

@@ -1,6 +1,6 @@
 //! Hard cases of the gather: the adapter's f32 against the f64 oracle, written to
 //! `results/stability/vpl.md`. Run with
-//! `cargo run --release -p manylights-vpl --example stability`.
+//! `cargo run --release -p manylights-vpl --example vpl_stability`.
 
 use std::fmt::Write as _;
 
@@ -129,7 +129,7 @@ fn main() {
     let report = gpu.report();
     let mut table = format!(
         "# Virtual point lights: hard cases\n\n\
-         `cargo run --release -p manylights-vpl --example stability` on {} ({} {}).\n\n\
+         `cargo run --release -p manylights-vpl --example vpl_stability` on {} ({} {}).\n\n\
          Worst difference of the adapter's f32 to the f64 oracle, relative to the larger of the \
          two, over each family of light and surface pairs; the largest true radiance shows how \
          hard the family is.\n\n\

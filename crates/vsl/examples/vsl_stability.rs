@@ -1,6 +1,6 @@
 //! Hard cases of the gather: the adapter's f32 against the f64 oracle, written to
 //! `results/stability/vsl.md`. Run with
-//! `cargo run --release -p manylights-vsl --example stability`.
+//! `cargo run --release -p manylights-vsl --example vsl_stability`.
 
 use std::fmt::Write as _;
 
@@ -149,7 +149,7 @@ fn main() {
     let report = gpu.report();
     let mut table = format!(
         "# Virtual spherical lights: hard cases\n\n\
-         `cargo run --release -p manylights-vsl --example stability` on {} ({} {}).\n\n\
+         `cargo run --release -p manylights-vsl --example vsl_stability` on {} ({} {}).\n\n\
          Worst difference of the adapter's f32 to the f64 oracle with the same 25 cone samples, \
          relative to the larger of the two, over each family of light and surface pairs; the largest \
          true radiance shows how hard the family is. Non-finite values are counted over all three \

@@ -1,6 +1,6 @@
 //! Hard cases of filter and gather: the adapter's f32 against the f64 oracle, written to
 //! `results/stability/vsgl.md`. Run with
-//! `cargo run -p manylights-vsgl --example stability`.
+//! `cargo run --release -p manylights-vsgl --example vsgl_stability`.
 
 use std::fmt::Write as _;
 
@@ -186,7 +186,7 @@ fn main() {
     let report = gpu.report();
     let mut table = format!(
         "# Virtual spherical Gaussian lights: hard cases\n\n\
-         `cargo run -p manylights-vsgl --example stability` on {} ({} {}).\n\n\
+         `cargo run --release -p manylights-vsgl --example vsgl_stability` on {} ({} {}).\n\n\
          Worst differences of the adapter's f32 to the f64 oracle, over each family of a group of 6² \
          texels and a surface. Filter: power, variance and sharpness of the lobes, relative. Gather: \
          radiance under the adapter's lobes, relative to the larger of the two, with filtered normals \

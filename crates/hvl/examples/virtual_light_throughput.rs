@@ -1,6 +1,6 @@
 //! Pairs of light and pixel a second for virtual point, spherical and harmonics lights, and what a pair
 //! of the last takes: written to `results/hvl-throughput/table.md`. Run with
-//! `cargo run --release -p manylights-hvl --example throughput`.
+//! `cargo run --release -p manylights-hvl --example virtual_light_throughput`.
 
 use std::fmt::Write as _;
 
@@ -76,7 +76,7 @@ fn main() {
     let report = gpu.report();
     let mut table = format!(
         "# Throughput of the gathers\n\n\
-         `cargo run --release -p manylights-hvl --example throughput` on {} ({} {}).\n\n\
+         `cargo run --release -p manylights-hvl --example virtual_light_throughput` on {} ({} {}).\n\n\
          {}×{} pixels, 400 cells, visibility ignored; median of {ROUNDS} interleaved rounds by the \
          adapter's clock. `vsl` takes 25 samples of the shaded point's BRDF, the thesis' setting. \
          Operations are additions and multiplications of a pair that sees each other, 115 more where \

@@ -1,5 +1,5 @@
 //! Hard cases of each form in f32 against f64, written to `results/stability/harmonics.md`. Run with
-//! `cargo run --release -p manylights-harmonics --example stability`.
+//! `cargo run --release -p manylights-harmonics --example harmonics_stability`.
 
 mod basis;
 mod cap;
@@ -89,7 +89,7 @@ fn main() {
     ];
     let mut text = String::from(
         "# Harmonics: hard cases in f32\n\n\
-         `cargo run --release -p manylights-harmonics --example stability`; the command fails where \
+         `cargo run --release -p manylights-harmonics --example harmonics_stability`; the command fails where \
          the last column of a table leaves its bound or is not finite. The same for WGSL: \
          `harmonics-wgsl.md`.\n",
     );
