@@ -28,16 +28,16 @@
 //! is no expansion at all: the irradiance of the cap, clipped by the horizon in closed form
 //! ([`horizon::irradiance`]), times the transmission at the sphere's centre; H is for the specular lobe
 //! alone. So a Lambertian surface is exact, whatever the bands. Limit: one circular lobe. What it
-//! misses of a lobe is printed by `examples/bands.rs`.
+//! misses of a lobe is printed by `examples/hvl_bands.rs`.
 //!
 //! # Emission (5.6)
 //! On Lambertian surfaces one colour: nothing of the light depends on the pixel but the cosine. On
 //! glossy ones the scene's reflectance itself by default (`emission_bands` = 0), which is exact and
 //! takes fewer operations than three bands of an expansion; or an expansion ([`emission`]), whose band 0
-//! alone makes the light as cheap as a Lambertian one. See `examples/emission.rs` for what each costs.
+//! alone makes the light as cheap as a Lambertian one. See `examples/hvl_emission.rs` for what each costs.
 //!
 //! # Cost
-//! A pixel's expansion is fetched once a batch, not once a light. `examples/throughput.rs` prints what a
+//! A pixel's expansion is fetched once a batch, not once a light. `examples/virtual_light_throughput.rs` prints what a
 //! pair of light and pixel takes, and how far the adapter is from it. Lights take 48 bytes, glossy ones
 //! 64.
 //!
