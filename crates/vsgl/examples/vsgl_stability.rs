@@ -190,7 +190,10 @@ fn main() {
          Worst differences of the adapter's f32 to the f64 oracle, over each family of a group of 6² \
          texels and a surface. Filter: power, variance and sharpness of the lobes, relative. Gather: \
          radiance under the adapter's lobes, relative to the larger of the two, with filtered normals \
-         and with the anisotropic Gaussian; the largest true radiance shows how hard the family is.\n\n\
+         and with the anisotropic Gaussian; the largest true radiance shows how hard the family is. Of \
+         lights below the horizon next to nothing is left, less than the error of erfc in f32 (1.5e-7 \
+         of what a facing light gives). Views within 1e-6 of the horizon have a cosine of one digit in \
+         f32.\n\n\
          | case | pairs | filter | gather, filtered | gather, anisotropic | largest radiance | \
          non-finite |\n|---|---|---|---|---|---|---|\n",
         report.name, report.driver, report.driver_info
