@@ -30,9 +30,9 @@ pub(crate) struct Inputs {
     pub(crate) repetition: u32,
     /// Light paths.
     pub(crate) transport: String,
-    /// Of the last segment, where it is not the method's own.
+    /// Visibility of the last segment, where it is not the method's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) visibility: Option<String>,
+    pub(crate) asked_visibility: Option<String>,
     /// Width, height in pixels.
     pub(crate) resolution: [u32; 2],
     /// Factor from radiance to display-referred values.
@@ -59,7 +59,7 @@ impl Inputs {
             seed: 0,
             repetition: 0,
             transport: experiment.transport.to_string(),
-            visibility: variant.unusual_visibility().map(|visibility| visibility.to_string()),
+            asked_visibility: variant.unusual_visibility().map(|visibility| visibility.to_string()),
             resolution: experiment.scale.resolution,
             exposure: scene.exposure,
             references: experiment.references.iter().map(|v| (v.to_string(), samples)).collect(),
@@ -77,7 +77,7 @@ impl Inputs {
     pub(crate) fn label(&self) -> String {
         let mut words = vec![self.method.clone()];
         words.extend(self.parameters.iter().map(|(name, value)| format!("{name}={value}")));
-        words.extend(self.visibility.iter().map(|visibility| format!("visibility={visibility}")));
+        words.extend(self.asked_visibility.iter().map(|asked| format!("visibility={asked}")));
         words.extend(match self.budget {
             Budget::Count => None,
             Budget::Seconds(seconds) => Some(format!("time={seconds}s")),
@@ -207,7 +207,7 @@ mod tests {
             seed: 1,
             repetition: 0,
             transport: "all".into(),
-            visibility: None,
+            asked_visibility: Some("ignored".into()),
             resolution: [16, 16],
             exposure: 1.5,
             references: BTreeMap::from([("traced".into(), 16)]),
@@ -235,7 +235,7 @@ mod tests {
         };
         let done = Done {
             amount: 32,
-            visibility: None,
+            visibility: Some("traced".into()),
             prepare_seconds: 0.25,
             step_seconds: 0.1 + 0.2,
             pass_seconds: BTreeMap::from([("gather".into(), 0.125)]),

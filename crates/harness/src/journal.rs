@@ -186,7 +186,7 @@ mod tests {
             seed,
             repetition: 0,
             transport: "all".into(),
-            visibility: None,
+            asked_visibility: None,
             resolution: [16, 16],
             exposure: 1.0,
             references: BTreeMap::new(),

@@ -14,7 +14,7 @@ const COLUMNS: usize = 20;
 pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
     let mut text = String::from(
         "scene,method,parameters,time_budget,machine,reference,outcome,rank,rank_shared,amount,runs,seconds,\
-         seconds_lower,seconds_upper,passes,prepare_seconds,linear_floor,display_floor,display_bias,\
+         seconds_lower,seconds_upper,pass_seconds,prepare_seconds,linear_floor,display_floor,display_bias,\
          display_deviation",
     );
     for space in ["linear", "display"] {
