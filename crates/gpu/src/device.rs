@@ -1,7 +1,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use crate::{AdapterReport, Error, Kernel};
+use crate::{AdapterReport, Binding, Error, Kernel};
 
 /// An open adapter. Clones share it.
 #[derive(Clone)]
@@ -19,7 +19,7 @@ pub(crate) struct Shared {
     pub(crate) timestamps: bool,
     /// Kernels by their WGSL. llvmpipe compiles at the first dispatch of a pipeline, so a pipeline
     /// that was warmed up must be the one that is timed.
-    pub(crate) kernels: Mutex<HashMap<String, Arc<Kernel>>>,
+    pub(crate) kernels: Mutex<HashMap<(String, Vec<Binding>), Arc<Kernel>>>,
     pub(crate) visibility: OnceLock<wgpu::RenderPipeline>,
 }
 

@@ -61,7 +61,7 @@ pub struct PassTime {
 }
 
 impl Gpu {
-    /// The kernel of a WGSL module with one entry point; compiled once for each text.
+    /// The kernel of a WGSL module with one entry point; compiled once for each text and bindings.
     ///
     /// All methods under comparison get the same run-time checks: those that wgpu turns on.
     ///
@@ -74,11 +74,12 @@ impl Gpu {
         bindings: &[Binding],
     ) -> Result<Arc<Kernel>, Error> {
         let mut kernels = self.shared.kernels.lock().unwrap_or_else(|poison| poison.into_inner());
-        if let Some(kernel) = kernels.get(wgsl) {
+        let key = (wgsl.to_owned(), bindings.to_owned());
+        if let Some(kernel) = kernels.get(&key) {
             return Ok(kernel.clone());
         }
         let kernel = Arc::new(self.checked(label, || self.compile(label, wgsl, bindings))?);
-        kernels.insert(wgsl.to_owned(), kernel.clone());
+        kernels.insert(key, kernel.clone());
         Ok(kernel)
     }
 

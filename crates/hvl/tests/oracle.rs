@@ -126,13 +126,12 @@ fn same_seed_same_image() {
 }
 
 /// Every pixel is the oracle's sum over the lights that the host's rays find visible. The two walks
-/// round differently where a ray grazes an edge: a share of the pixels may be another.
+/// round differently where a ray grazes an edge: some pixel may be another.
 #[test]
 fn traced_shadows() {
     let settings = Settings { lights: 64, ..SETTINGS };
-    let picture =
-        render("cornell-glossy", [24, 18], &[("lights", "64")], &settings, Visibility::Traced);
-    let scene = manylights_scene::load("cornell-glossy", None).expect("built in");
+    let picture = render("trio", [24, 18], &[("lights", "64")], &settings, Visibility::Traced);
+    let scene = manylights_scene::load("trio", None).expect("built in");
     let bvh = Bvh::build(&scene);
     let (mut hidden, mut wrong) = (0, 0);
     let peak = picture.image.pixels.as_flattened().iter().copied().fold(0.0, f32::max);
@@ -152,5 +151,5 @@ fn traced_shadows() {
         let difference = (Vec3::from(*pixel) - truth.max(Vec3::ZERO)).abs().max_element();
         wrong += usize::from(difference > 1e-5 * peak);
     }
-    assert!(hidden > 1000 && wrong <= 4, "{hidden} hidden, {wrong} wrong");
+    assert!(hidden > 1000 && wrong <= 2, "{hidden} hidden, {wrong} wrong");
 }
