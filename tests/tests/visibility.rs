@@ -1,13 +1,12 @@
-//! Shadow rays on the adapter against the hierarchy of the host, and the reference that methods
-//! with traced visibility converge to.
+//! Virtual lights with shadows: every pixel sums what its shadow rays let through, and converges to the
+//! reference with shadows.
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord, distribute};
+use manylights_gpu::{Center, Gpu, GpuFrame, Shadows, SurfaceRecord, distribute};
 use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer::Settings;
-use manylights_scene::bvh::Bvh;
-use manylights_scene::{Light, Scene};
+use manylights_scene::Scene;
 use manylights_vpl::{Vpl, oracle};
 
 const TRACED: Transport = Transport::Indirect { bounces: 1, visibility: Visibility::Traced };
@@ -27,80 +26,39 @@ fn on_gpu(scene: &Scene, resolution: [u32; 2]) -> GpuFrame {
     GpuFrame::new(&gpu, scene, &scene.cameras[0], resolution).expect("the scene fits")
 }
 
-/// Every pixel is the oracle's sum over the lights that the host's rays find visible. Roundings of the
-/// two walks differ where a ray grazes an edge: the share of other pixels is bounded.
-fn shadows_agree(scene: &Scene, lights: u64, other: f64) {
-    let frame = on_gpu(scene, [48, 36]);
-    let picture = vpl(scene, &frame, lights);
-    let (lights, _) = distribute(&frame, scene, lights, 0).expect("lights");
-    let surfaces: Vec<SurfaceRecord> = frame.gpu().read(frame.surfaces()).expect("a G-buffer");
-    let bvh = Bvh::build(scene);
-    let camera = scene.cameras[0].position.as_dvec3();
-    let settings = manylights_vpl::Settings { lights: 1, clamp: None, radius: None };
-    let (mut hidden, mut pairs, mut wrong) = (0, 0, 0);
-    for (surface, pixel) in surfaces.iter().zip(&picture.pixels) {
-        if surface.triangle == SurfaceRecord::NO_TRIANGLE {
-            assert_eq!(*pixel, [0.0; 3]);
-            continue;
-        }
-        let front = scene.geometric_normal(surface.triangle);
-        let normal = if front.dot(surface.normal) >= 0.0 { front } else { -front };
-        let visible: Vec<_> = lights
-            .iter()
-            .filter(|light| {
-                bvh.sees([surface.position, normal], [light.position, light.geometric_normal])
-            })
-            .copied()
-            .collect();
-        hidden += lights.len() - visible.len();
-        pairs += lights.len();
-        let expected = oracle::radiance(surface, camera, &visible, &settings).as_vec3();
-        let difference = (Vec3::from(*pixel) - expected).abs().max_element();
-        wrong += usize::from(difference > 2e-4 * expected.max_element().max(1e-3));
-    }
-    let share = wrong as f64 / surfaces.len() as f64;
-    println!("{}: {wrong} pixels differ, {hidden} of {pairs} pairs hidden", scene.name);
-    assert!(hidden > pairs / 20 && hidden < pairs, "{hidden} of {pairs} hidden: a weak test");
-    assert!(share <= other, "{}: {wrong} pixels differ", scene.name);
-}
-
+/// On Lambertian and on glossy surfaces, with more lights than a batch of shadow rays.
 #[test]
-fn shadows_agree_with_the_host() {
-    for name in ["cornell", "cornell-glossy", "trio", "atrium"] {
+fn pixels_sum_what_they_see() {
+    for name in ["cornell", "trio"] {
         let scene = manylights_scene::load(name, None).expect("built in");
-        // More than a word and more than a batch.
-        shadows_agree(&scene, 300, 0.004);
-    }
-}
-
-/// All lengths by a factor; radiances stay.
-fn scale(scene: &mut Scene, factor: f32) {
-    for vertex in &mut scene.vertices {
-        vertex.position *= factor;
-    }
-    for camera in &mut scene.cameras {
-        camera.position *= factor;
-    }
-    for light in &mut scene.lights {
-        if let Light::Spot { position, intensity, .. } | Light::Point { position, intensity } =
-            light
-        {
-            *position *= factor;
-            *intensity *= factor * factor;
+        let frame = on_gpu(&scene, [32, 24]);
+        let picture = vpl(&scene, &frame, 400);
+        let (lights, _) = distribute(&frame, &scene, 400, 0).expect("lights");
+        // The kernel gathers those on Lambertian surfaces first, but a sum has no order.
+        let centers: Vec<_> = lights.iter().map(Center::from).collect();
+        let shadows = Shadows::new(&frame, &scene).expect("the hierarchy fits");
+        let hidden = shadows.hidden_lights(&frame, &centers).expect("a pass");
+        let surfaces: Vec<SurfaceRecord> = frame.gpu().read(frame.surfaces()).expect("a G-buffer");
+        let eye = scene.cameras[0].position.as_dvec3();
+        let settings = manylights_vpl::Settings { lights: 1, clamp: None, radius: None };
+        let truth: Vec<_> = (0..surfaces.len())
+            .map(|pixel| {
+                let seen = lights.iter().zip(hidden.chunks(surfaces.len()));
+                let seen = seen.filter(|(_, hidden)| !hidden[pixel]).map(|(light, _)| *light);
+                oracle::radiance(&surfaces[pixel], eye, &seen.collect::<Vec<_>>(), &settings)
+            })
+            .collect();
+        let peak = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
+        assert!(peak > 0.0);
+        for (pixel, truth) in picture.pixels.iter().zip(&truth) {
+            let error = (Vec3::from(*pixel).as_dvec3() - truth).abs().max_element();
+            assert!(error < 1e-5 * peak, "{name}: {pixel:?}, {truth}");
         }
     }
 }
 
-#[test]
-fn shadows_do_not_depend_on_the_unit_of_length() {
-    for factor in [1e-3, 1e4] {
-        let mut scene = manylights_scene::load("trio", None).expect("built in");
-        scale(&mut scene, factor);
-        shadows_agree(&scene, 36, 0.004);
-    }
-}
-
-/// As without visibility (vpl_truths.rs), towards the reference with shadows.
+/// As without visibility (vpl_truths.rs). The mean absolute error, since single pixels next to an edge
+/// make the RMSE of so few lights a matter of chance.
 #[test]
 fn converges_to_the_reference() {
     let scene = manylights_scene::load("cornell", None).expect("built in");
@@ -112,10 +70,10 @@ fn converges_to_the_reference() {
     let frame = on_gpu(&scene, resolution);
     let errors = [16, 256, 4096].map(|lights| {
         let image = vpl(&scene, &frame, lights);
-        manylights_metrics::compare_linear(&image, &reference.image).expect("comparable").rmse
+        manylights_metrics::compare_linear(&image, &reference.image).expect("comparable").mae
     });
-    println!("RMSE {errors:?}, noise floor {}", reference.noise_floor);
+    println!("mean absolute errors {errors:?}, noise floor {}", reference.noise_floor);
     for pair in errors.windows(2) {
-        assert!(pair[1] < 0.75 * pair[0], "{errors:?}");
+        assert!(pair[1] < 0.5 * pair[0], "{errors:?}");
     }
 }

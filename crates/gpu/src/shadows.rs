@@ -11,7 +11,8 @@ use manylights_scene::Scene;
 use manylights_scene::bvh::Bvh;
 
 use crate::{
-    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, Kernel, Resource, VirtualLight, link,
+    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, Kernel, Resource, UniformBatches,
+    VirtualLight, link,
 };
 
 /// Most lights of a batch, as `shaders/shadow.wesl` declares its array: a bit each and pixel.
@@ -127,6 +128,28 @@ impl Shadows {
 
     /// The layout that the shader declares for a batch of [`Center`]s.
     pub(crate) const CAPACITY: usize = MOST_LIGHTS;
+
+    /// Whether each pixel does not see each light, at `light * pixels + pixel`: what the gathers read,
+    /// for tests.
+    ///
+    /// # Errors
+    /// Where the device gave up.
+    pub fn hidden_lights(&self, frame: &GpuFrame, centers: &[Center]) -> Result<Vec<bool>, Error> {
+        let (gpu, most) = (frame.gpu(), self.lights_a_batch);
+        let batches = UniformBatches::new(gpu, "centres", centers, Self::CAPACITY, most)?;
+        let pixels = self.pixels as usize;
+        let mut hidden = Vec::with_capacity(centers.len() * pixels);
+        for (index, &count) in batches.counts().iter().enumerate() {
+            let resources = self.resources(frame.surfaces(), Resource::Batch(&batches, index));
+            gpu.run(&[self.dispatch(&resources)])?;
+            let words: Vec<u32> = gpu.read(&self.hidden)?;
+            for light in 0..count as usize {
+                let words = &words[light / WORD * pixels..][..pixels];
+                hidden.extend(words.iter().map(|word| word >> (light % WORD) & 1 == 1));
+            }
+        }
+        Ok(hidden)
+    }
 
     /// Bit i % 32 of word (i / 32) · pixels + pixel: whether the pixel does not see light i.
     pub(crate) fn hidden(&self) -> &Buffer {

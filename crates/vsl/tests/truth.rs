@@ -185,8 +185,9 @@ fn small_spheres_are_point_lights() {
             let peak = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
             for (pixel, truth) in picture.image.pixels.iter().zip(&truth) {
                 let error = (Vec3::from(*pixel).as_dvec3() - truth).abs().max_element();
-                // Nine equal terms are summed: the rounding of point lights.
-                assert!(error < 1e-5 * peak, "{scene} {sampling:?}: {pixel:?}, {truth}");
+                // Nine equal terms are summed: the rounding of point lights, largest where lobes are
+                // narrow (α = 0.04 on the trio).
+                assert!(error < 2e-5 * peak, "{scene} {sampling:?}: {pixel:?}, {truth}");
             }
         }
     }
