@@ -9,6 +9,9 @@ pub struct Gpu {
     pub(crate) shared: Arc<Shared>,
 }
 
+/// By their WGSL and their bindings.
+type Kernels = HashMap<(String, Vec<Binding>), Arc<Kernel>>;
+
 pub(crate) struct Shared {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
@@ -17,9 +20,9 @@ pub(crate) struct Shared {
     /// Whether timestamps tell the time of a pass. Those of llvmpipe do not: it runs a dispatch at
     /// once and both timestamps later, when its rasteriser is flushed.
     pub(crate) timestamps: bool,
-    /// Kernels by their WGSL. llvmpipe compiles at the first dispatch of a pipeline, so a pipeline
+    /// llvmpipe compiles at the first dispatch of a pipeline, so a pipeline
     /// that was warmed up must be the one that is timed.
-    pub(crate) kernels: Mutex<HashMap<(String, Vec<Binding>), Arc<Kernel>>>,
+    pub(crate) kernels: Mutex<Kernels>,
     pub(crate) visibility: OnceLock<wgpu::RenderPipeline>,
 }
 
