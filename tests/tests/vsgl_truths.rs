@@ -84,7 +84,7 @@ fn self_illumination() -> f64 {
             position: Vec3::new(x, 0.0, z),
             alpha: brdf.alpha,
             normal: Vec3::Y,
-            f90: brdf.f90,
+            f90: brdf.lobe.slot(),
             diffuse: brdf.diffuse,
             triangle: 0,
             f0: brdf.f0,
