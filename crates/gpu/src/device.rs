@@ -3,6 +3,9 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::{AdapterReport, Binding, Error, Kernel};
 
+/// WGSL and bindings.
+type KernelKey = (String, Vec<Binding>);
+
 /// An open adapter. Clones share it.
 #[derive(Clone)]
 pub struct Gpu {
@@ -19,7 +22,7 @@ pub(crate) struct Shared {
     pub(crate) timestamps: bool,
     /// Kernels by their WGSL. llvmpipe compiles at the first dispatch of a pipeline, so a pipeline
     /// that was warmed up must be the one that is timed.
-    pub(crate) kernels: Mutex<HashMap<(String, Vec<Binding>), Arc<Kernel>>>,
+    pub(crate) kernels: Mutex<HashMap<KernelKey, Arc<Kernel>>>,
     pub(crate) visibility: OnceLock<wgpu::RenderPipeline>,
 }
 
