@@ -9,7 +9,7 @@ use manylights_hvl::Hvl;
 use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
 use manylights_metrics::RadianceImage;
 
-const BANDS: [u32; 7] = [0, 1, 2, 3, 5, 9, 15];
+const BANDS: [u32; 6] = [0, 1, 2, 3, 5, 9];
 const ROUNDS: usize = 5;
 
 fn picture(frame: &Frame<'_>, bands: u32) -> (RadianceImage, f64) {
