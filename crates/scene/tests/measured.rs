@@ -115,7 +115,7 @@ fn distribution_and_area_are_linear_between_their_points() {
     assert!((brdf.eval(DVec3::Z, v, l).x / expected - 1.0).abs() < 1e-6);
     // Without the Jacobian the colours are the values.
     let mut fields = fields;
-    fields[6].bytes = vec![0];
+    fields[8].bytes = vec![0];
     let brdf = DBrdf::from(load("c.bsdf", &tensor::file(&fields)).expect("valid"));
     assert!((brdf.eval(DVec3::Z, v, l).x * l.z - 0.5).abs() < 1e-6);
 }
@@ -176,7 +176,7 @@ fn broken_files_are_refused_with_a_line() {
     refused("a.bsdf", &changed(4, &twice), "more than one azimuth");
     refused("a.bsdf", &changed(5, &twice), "more than one azimuth");
     refused("a.bsdf", &changed(5, &|field| field.shape[1] = 2), "do not fit theta_i");
-    refused("a.bsdf", &changed(6, &|field| field.shape = vec![0]), "jacobian");
+    refused("a.bsdf", &changed(8, &|field| field.shape = vec![0]), "jacobian");
     refused("a.binary", &[0; 40], "is not 90");
     let missing = Measured::load(Path::new("nowhere.bsdf")).expect_err("no file");
     assert!(common::check_line(&missing).contains("nowhere.bsdf"));
@@ -349,7 +349,7 @@ fn real_measurements_reflect_what_their_networks_do() {
 #[ignore = "needs MANYLIGHTS_ASSETS"]
 fn all_real_measurements_load() {
     let folder = common::assets().join("brdf/rgl");
-    let mut count = 0;
+    let (mut count, mut largest) = (0, 0.0_f64);
     for entry in folder.read_dir().expect("a folder") {
         let path = entry.expect("a file").path();
         let brdf = Measured::load(&path).unwrap_or_else(|error| panic!("{error}")).brdf();
@@ -358,9 +358,12 @@ fn all_real_measurements_load() {
             let v = polar(cos, 0.3);
             let albedo = albedo(v, |v, l| DBrdf::from(brdf).eval(DVec3::Z, v, l));
             assert!(albedo.is_finite() && albedo.min_element() >= 0.0, "{albedo}");
-            assert!(albedo.max_element() < 1.05, "{}: {albedo}", path.display());
+            println!("{cos}: {albedo:.4}");
+            largest = largest.max(albedo.max_element());
         }
         count += 1;
     }
     assert_eq!(count, 7);
+    println!("largest albedo {largest:.4}");
+    assert!(largest < 1.0);
 }

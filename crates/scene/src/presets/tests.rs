@@ -42,7 +42,7 @@ fn hellinger_distance(preset: &Preset, abc: &Abc) -> f64 {
     let lowest = 80_f64.to_radians().cos();
     let middle = |index: u32, axis: usize| (f64::from(index) + 0.5) / f64::from(STEPS[axis]);
     let (mut difference, mut norm) = (0.0, 0.0);
-    for step in 0..STEPS.iter().product() {
+    for step in 0..STEPS.iter().product::<u32>() {
         let place = middle(step / (STEPS[1] * STEPS[2]), 0);
         // θ_h = x⁴ π/2: lobes are narrow.
         let theta_h = place.powi(4) * FRAC_PI_2;

@@ -78,9 +78,9 @@ pub(crate) fn material(
         Field::floats("ndf", &[2, DENSITY[0]], line(&distribution)),
         Field::floats("vndf", &[1, count, DENSITY[1], DENSITY[0]], densities.collect()),
         Field::floats("rgb", &[1, count, 3, COLOR[1], COLOR[0]], colors.collect()),
-        Field { name: "jacobian", kind: 1, shape: vec![1], bytes: vec![1] },
         Field { name: "description", kind: 1, shape: vec![text.len() as u64], bytes: text },
         Field::floats("luminance", &[1, count, 1, 1], vec![0.5; ANGLES.len()]),
+        Field { name: "jacobian", kind: 1, shape: vec![1], bytes: vec![1] },
     ]
 }
 
