@@ -35,6 +35,13 @@ impl SurfaceRecord {
     /// Marks a texel without a surface.
     pub const NO_TRIANGLE: u32 = u32::MAX;
 
+    /// A point of triangle 0 and material 0, for gathers of points that no scene holds.
+    pub fn new(position: Vec3, normal: Vec3, brdf: Brdf) -> Self {
+        let Brdf { diffuse, f0, lobe, alpha } = brdf;
+        let f90 = lobe.slot();
+        Self { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
+    }
+
     /// Its reflectance.
     pub fn brdf(&self) -> Brdf {
         let Self { diffuse, f0, f90, alpha, .. } = *self;

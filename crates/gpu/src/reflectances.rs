@@ -58,7 +58,7 @@ impl Reflectances {
         let mut words = vec![0; last as usize + 1];
         for measured in &self.measured {
             words[measured.number() as usize] = words.len() as u32;
-            words.extend_from_slice(measured.words());
+            words.extend(measured.words());
         }
         Ok(vec![gpu.storage("measurements", &words)?])
     }

@@ -22,7 +22,7 @@ pub(crate) fn content_digest(scene: &Scene, camera: &Camera) -> [u8; 32] {
     for material in &scene.materials {
         part(material_text(material).as_bytes());
         if let Some(Brdf { lobe: Lobe::Measured(measured), .. }) = material.given {
-            part(bytemuck::cast_slice(measured.words()));
+            part(bytemuck::cast_slice(&measured.words()));
         }
     }
     for texture in &scene.textures {

@@ -142,7 +142,7 @@ fn the_content_hash_sees_what_matters() {
         changed.materials[0].given = Some(brdf);
         hash(&changed)
     };
-    let other = tensor::material(|_, _| 1.0, |_| 1.0, |_| 1.0, |_, _, _| 0.25);
+    let other = tensor::material(|_, _, _| 1.0, |_| 1.0, |_| 1.0, |_, _, _, _| 0.25);
     // As many numbers as the first measurement, others.
     let measured = [tensor::satin(), tensor::file(&other)].map(|bytes| {
         let path = tempfile::tempdir().expect("a temporary folder").keep().join("a.bsdf");

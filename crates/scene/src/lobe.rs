@@ -37,7 +37,8 @@ impl Lobe {
     }
 
     /// The lobe as one number, which records on the adapter carry in their slot `f90`: f90 itself
-    /// (from 0) for Schlick's form, −index for the exact one, −(16 + number) of a measurement. These
+    /// (from 0) for Schlick's form, −index for the exact one, −(16 + number) of a measurement, which only
+    /// this process knows ([`Measured::number`]). These
     /// functions are the only places that know it in Rust, `shaders/brdf.wesl` in WGSL.
     pub fn slot(self) -> f32 {
         match self {

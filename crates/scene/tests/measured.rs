@@ -46,28 +46,40 @@ fn tabulated(f: impl Fn(f64) -> f64, x: f64) -> f64 {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// A density a + bx along θ_h and c + dy around warps x to (ax + bx²/2)/(a + b/2) and y likewise;
-    /// colours that are linear in each coordinate are then known in closed form.
+    /// With X = x − 1/2, Y = y − 1/2 a density 1 + bX + dY + eXY of b, d, e linear in θ_v integrates to
+    /// 1 for each θ_v and is what the table interpolates; a factor in θ_v goes with normalisation. Its
+    /// integrals, and colours that are linear in each coordinate, are known in closed form.
     #[test]
     fn interpolation_is_the_closed_form(
         v in direction(0.05),
         l in direction(0.05),
-        a in 0.5_f32..2.0,
-        b in -0.4_f32..1.0,
-        d in -0.4_f32..1.0,
+        [b, d, e] in prop::array::uniform3(-0.4_f32..0.4),
+        [b_slope, d_slope, e_slope] in prop::array::uniform3(-0.2_f32..0.2),
     ) {
         let fields = tensor::material(
-            |x, y| (a + b * x) * (1.0 + d * y),
+            |x, y, theta| {
+                let (x, y) = (x - 0.5, y - 0.5);
+                let [b, d, e] = [b + b_slope * theta, d + d_slope * theta, e + e_slope * theta];
+                (1.0 + theta) * (1.0 + b * x + d * y + e * x * y)
+            },
             |x| 2.0 - x,
             |x| 1.0 - 0.5 * x,
-            |x, y, c| 0.2 + 0.5 * x + 0.25 * y + 0.125 * c as f32 * x * y,
+            |x, y, theta, c| {
+                (0.2 + 0.5 * x + 0.25 * y + 0.125 * c as f32 * x * y) * (1.0 + 0.5 * theta)
+            },
         );
         let brdf = DBrdf::from(load("a.bsdf", &tensor::file(&fields)).expect("valid"));
         let [x, y] = half_vector(v, l);
-        let warped = |x: f64, a: f64, b: f64| (a + 0.5 * b * x) * x / (a + 0.5 * b);
-        let (x_u, y_u) = (warped(x, a.into(), b.into()), warped(y, 1.0, d.into()));
-        let theta_v = (v.z.acos() / FRAC_PI_2).sqrt();
-        let scale = (2.0 - x) / (4.0 * (1.0 - 0.5 * theta_v)) / l.z;
+        let theta_v = v.z.acos();
+        let [b, d, e] = [(b, b_slope), (d, d_slope), (e, e_slope)]
+            .map(|(at_normal, slope)| f64::from(at_normal) + theta_v * f64::from(slope));
+        // ∫₀ˣ X, and all of a row, where that vanishes at its end.
+        let up_to = |x: f64| 0.5 * x * (x - 1.0);
+        let row = 1.0 + d * (y - 0.5);
+        let x_u = (row * x + (b + e * (y - 0.5)) * up_to(x)) / row;
+        let y_u = y + d * up_to(y);
+        let unit_v = (theta_v / FRAC_PI_2).sqrt();
+        let scale = (2.0 - x) / (4.0 * (1.0 - 0.5 * unit_v)) / l.z * (1.0 + 0.5 * theta_v);
         let found = brdf.eval(DVec3::Z, v, l);
         for channel in 0..3 {
             let color = 0.2 + 0.5 * x_u + 0.25 * y_u + 0.125 * channel as f64 * x_u * y_u;
@@ -90,10 +102,10 @@ proptest! {
 #[test]
 fn distribution_and_area_are_linear_between_their_points() {
     let fields = tensor::material(
-        |_, _| 1.0,
+        |_, _, _| 1.0,
         |x| (3.0 * x).cos() + 2.0,
         |x| (1.0 + x * x).recip(),
-        |_, _, _| 0.5,
+        |_, _, _, _| 0.5,
     );
     let brdf = DBrdf::from(load("b.bsdf", &tensor::file(&fields)).expect("valid"));
     let (v, l) = (polar(0.6, 1.0), polar(0.3, 2.5));
@@ -103,14 +115,14 @@ fn distribution_and_area_are_linear_between_their_points() {
     assert!((brdf.eval(DVec3::Z, v, l).x / expected - 1.0).abs() < 1e-6);
     // Without the Jacobian the colours are the values.
     let mut fields = fields;
-    fields[6].bytes = vec![0];
+    fields[8].bytes = vec![0];
     let brdf = DBrdf::from(load("c.bsdf", &tensor::file(&fields)).expect("valid"));
     assert!((brdf.eval(DVec3::Z, v, l).x * l.z - 0.5).abs() < 1e-6);
 }
 
 #[test]
 fn negative_colors_count_nothing() {
-    let fields = tensor::material(|_, _| 1.0, |_| 1.0, |_| 1.0, |_, _, c| c as f32 - 1.0);
+    let fields = tensor::material(|_, _, _| 1.0, |_| 1.0, |_| 1.0, |_, _, _, c| c as f32 - 1.0);
     let brdf = load("d.bsdf", &tensor::file(&fields)).expect("valid");
     let found = DBrdf::from(brdf).eval(DVec3::Z, polar(0.6, 1.0), polar(0.3, 2.5));
     assert!(found.x == 0.0 && found.y == 0.0 && found.z > 0.0, "{found}");
@@ -120,7 +132,7 @@ fn negative_colors_count_nothing() {
 fn the_same_data_is_one_table() {
     let [first, again] = [0, 1].map(|_| load("e.bsdf", &tensor::satin()).expect("valid"));
     assert_eq!(first, again);
-    let other = tensor::material(|_, _| 1.0, |_| 1.0, |_| 0.9, |_, _, _| 0.1);
+    let other = tensor::material(|_, _, _| 1.0, |_| 1.0, |_| 0.9, |_, _, _, _| 0.1);
     assert_ne!(first, load("e.bsdf", &tensor::file(&other)).expect("valid"));
     assert_eq!(manylights_scene::Lobe::from_slot(first.lobe.slot()), first.lobe);
     assert_eq!(manylights_scene::Lobe::from_slot(first.lobe.light_slot()), first.lobe);
@@ -132,8 +144,13 @@ fn broken_files_are_refused_with_a_line() {
         let line = common::check_line(&load(name, bytes).expect_err(expected));
         assert!(line.contains(expected), "{line}: not `{expected}`");
     };
+    let twice = |field: &mut tensor::Field| {
+        field.shape[0] = 2;
+        field.bytes = field.bytes.repeat(2);
+    };
     let changed = |index: usize, change: &dyn Fn(&mut tensor::Field)| {
-        let mut fields = tensor::material(|x, _| 1.0 - 0.1 * x, |_| 1.0, |_| 1.0, |_, _, _| 0.5);
+        let mut fields =
+            tensor::material(|x, _, _| 1.0 - 0.1 * x, |_| 1.0, |_| 1.0, |_, _, _, _| 0.5);
         change(&mut fields[index]);
         tensor::file(&fields)
     };
@@ -147,6 +164,8 @@ fn broken_files_are_refused_with_a_line() {
     refused("a.bsdf", &changed(1, &|field| field.shape = vec![1]), "does not ascend");
     refused("a.bsdf", &changed(2, &|field| field.bytes.fill(0)), "sigma: is not positive");
     refused("a.bsdf", &changed(3, &|field| field.bytes[3] ^= 1), "depends on the azimuth");
+    let negative = |field: &mut tensor::Field| field.bytes = (-1.0_f32).to_le_bytes().repeat(2 * 9);
+    refused("a.bsdf", &changed(3, &negative), "ndf: is negative");
     refused("a.bsdf", &changed(3, &|field| field.kind = 11), "type 11");
     refused("a.bsdf", &changed(3, &|field| field.shape = vec![0, 9]), "ndf: is empty");
     refused("a.bsdf", &changed(4, &|field| field.bytes.fill(0)), "vndf: is zero");
@@ -154,8 +173,10 @@ fn broken_files_are_refused_with_a_line() {
     refused("a.bsdf", &changed(4, &|field| field.shape = vec![u64::MAX; 4]), "beyond the file");
     refused("a.bsdf", &changed(4, &|field| field.shape[2] += 1 << 40), "beyond the file");
     refused("a.bsdf", &changed(4, &|field| field.shape = vec![1; 9]), "rank 9");
+    refused("a.bsdf", &changed(4, &twice), "more than one azimuth");
+    refused("a.bsdf", &changed(5, &twice), "more than one azimuth");
     refused("a.bsdf", &changed(5, &|field| field.shape[1] = 2), "do not fit theta_i");
-    refused("a.bsdf", &changed(6, &|field| field.shape = vec![0]), "jacobian");
+    refused("a.bsdf", &changed(8, &|field| field.shape = vec![0]), "jacobian");
     refused("a.binary", &[0; 40], "is not 90");
     let missing = Measured::load(Path::new("nowhere.bsdf")).expect_err("no file");
     assert!(common::check_line(&missing).contains("nowhere.bsdf"));
@@ -165,7 +186,8 @@ fn broken_files_are_refused_with_a_line() {
 #[test]
 fn hostile_bytes_are_no_panic() {
     let whole = tensor::satin();
-    let head = 300.min(whole.len());
+    // Some of the numbers too.
+    let head = tensor::head_size(&tensor::satin_fields()) + 16;
     for end in (0..head).chain([whole.len() - 1]) {
         common::check_line(&load("a.bsdf", &whole[..end]).expect_err("cut"));
     }
@@ -327,7 +349,7 @@ fn real_measurements_reflect_what_their_networks_do() {
 #[ignore = "needs MANYLIGHTS_ASSETS"]
 fn all_real_measurements_load() {
     let folder = common::assets().join("brdf/rgl");
-    let mut count = 0;
+    let (mut count, mut largest) = (0, 0.0_f64);
     for entry in folder.read_dir().expect("a folder") {
         let path = entry.expect("a file").path();
         let brdf = Measured::load(&path).unwrap_or_else(|error| panic!("{error}")).brdf();
@@ -336,9 +358,12 @@ fn all_real_measurements_load() {
             let v = polar(cos, 0.3);
             let albedo = albedo(v, |v, l| DBrdf::from(brdf).eval(DVec3::Z, v, l));
             assert!(albedo.is_finite() && albedo.min_element() >= 0.0, "{albedo}");
-            assert!(albedo.max_element() < 1.05, "{}: {albedo}", path.display());
+            println!("{cos}: {albedo:.4}");
+            largest = largest.max(albedo.max_element());
         }
         count += 1;
     }
     assert_eq!(count, 7);
+    println!("largest albedo {largest:.4}");
+    assert!(largest < 1.0);
 }

@@ -19,12 +19,6 @@ struct Case {
 
 const PLAIN: Settings = Settings { lights: 1, clamp: None, radius: None };
 
-fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, lobe, alpha } = brdf;
-    let f90 = lobe.slot();
-    SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
-}
-
 fn light(position: Vec3, normal: Vec3, brdf: Brdf) -> VirtualLight {
     let incoming = (normal + 0.5 * normal.any_orthonormal_vector()).normalize();
     VirtualLight { position, geometric_normal: normal, normal, incoming, flux: Vec3::ONE, brdf }
@@ -66,11 +60,11 @@ fn cases() -> Vec<Case> {
             let up = oblique(Vec3::Y);
             let facing = |d: f32| {
                 let across = oblique(Vec3::new(0.3, 1.0, 0.1)).normalize();
-                (surface(origin, up, brdf), light(origin + d * across, -up, brdf))
+                (SurfaceRecord::new(origin, up, brdf), light(origin + d * across, -up, brdf))
             };
             let beside = |d: f32| {
                 let across = oblique(Vec3::X);
-                (surface(origin, up, brdf), light(origin + d * across, up, brdf))
+                (SurfaceRecord::new(origin, up, brdf), light(origin + d * across, up, brdf))
             };
             let name = |what: &str| format!("{what}, scene of {size:e}");
             add(&name("distance → 0"), camera, PLAIN, shrinking(size).map(facing).collect());
@@ -83,14 +77,17 @@ fn cases() -> Vec<Case> {
         let up = oblique(Vec3::Y);
         let behind = (1..20).map(|i| {
             let away = oblique(Vec3::new(0.2, -0.1 * i as f32, 0.4));
-            (surface(Vec3::ZERO, up, brdf), light(away, up, brdf))
+            (SurfaceRecord::new(Vec3::ZERO, up, brdf), light(away, up, brdf))
         });
         add("back faces", up, PLAIN, behind.collect());
         let grazing = (1..=12).map(|i| {
             // The surface turns away from the camera, down to 1e-6 rad above its horizon.
             let angle = 10_f32.powf(-0.5 * i as f32);
             let normal = Vec3::new(angle.cos(), angle.sin(), 0.0);
-            (surface(Vec3::ZERO, normal, brdf), light(Vec3::new(1.0, 0.7, 0.3), -Vec3::X, brdf))
+            (
+                SurfaceRecord::new(Vec3::ZERO, normal, brdf),
+                light(Vec3::new(1.0, 0.7, 0.3), -Vec3::X, brdf),
+            )
         });
         add("grazing view", Vec3::Y, PLAIN, grazing.collect());
     }

@@ -16,19 +16,6 @@ static GPU: LazyLock<Gpu> =
 
 const SETTINGS: Settings = Settings { lights: 1, clamp: None, radius: None };
 
-fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    SurfaceRecord {
-        position,
-        alpha: brdf.alpha,
-        normal,
-        f90: brdf.lobe.slot(),
-        diffuse: brdf.diffuse,
-        triangle: 0,
-        f0: brdf.f0,
-        material: 0,
-    }
-}
-
 fn light(position: Vec3, normal: Vec3, incoming: Vec3, brdf: Brdf) -> VirtualLight {
     let flux = Vec3::ONE;
     VirtualLight { position, geometric_normal: normal, normal, incoming, flux, brdf }
@@ -114,7 +101,7 @@ proptest! {
                 well_above(place.y) && well_above(normal.dot(-*place))
                     && well_above(normal.dot(to_camera))
             })
-            .map(|(place, normal)| surface(place, normal, brdf))
+            .map(|(place, normal)| SurfaceRecord::new(place, normal, brdf))
             .collect();
         let light = light(Vec3::ZERO, Vec3::Y, Vec3::Y, Brdf::lambert(Vec3::ONE));
         check(&surfaces, camera, &light, brdf.alpha);
@@ -131,7 +118,7 @@ proptest! {
         let surfaces: Vec<_> = places
             .into_iter()
             .filter(|place| well_above(place.y))
-            .map(|place| surface(place, -place, Brdf::lambert(Vec3::ONE)))
+            .map(|place| SurfaceRecord::new(place, -place, Brdf::lambert(Vec3::ONE)))
             .collect();
         let light = light(Vec3::ZERO, Vec3::Y, incoming, brdf);
         check(&surfaces, camera, &light, brdf.alpha);
@@ -163,7 +150,7 @@ fn measured_agrees(brdf: Brdf, slope: f64) {
                 && well_above(normal.dot(-**place))
                 && well_above(normal.dot(to_camera))
         })
-        .map(|(&place, &normal)| surface(place, normal, brdf))
+        .map(|(&place, &normal)| SurfaceRecord::new(place, normal, brdf))
         .collect();
     assert!(surfaces.len() > 150);
     let lambert = light(Vec3::ZERO, Vec3::Y, Vec3::Y, Brdf::lambert(Vec3::ONE));
@@ -171,7 +158,7 @@ fn measured_agrees(brdf: Brdf, slope: f64) {
 
     let above = directions.iter().filter(|place| well_above(place.y));
     let surfaces: Vec<_> =
-        above.map(|&place| surface(place, -place, Brdf::lambert(Vec3::ONE))).collect();
+        above.map(|&place| SurfaceRecord::new(place, -place, Brdf::lambert(Vec3::ONE))).collect();
     for incoming in [Vec3::new(0.1, 1.0, 0.2), Vec3::new(-1.0, 0.4, 0.3)] {
         let light = light(Vec3::ZERO, Vec3::Y, incoming.normalize(), brdf);
         check_table(&surfaces, camera, &light, slope);
@@ -202,10 +189,14 @@ fn real_measurements_agree_with_the_oracle() {
 #[test]
 fn merl_tables_agree_with_the_oracle() {
     let value = |index: usize| 400.0 + 30.0 * ((index % 180) as f64 / 9.0).sin();
-    let rows = (0..90 * 90).map(|row| 20.0 * (f64::from(row % 90) / 20.0).cos());
+    // Over θ_d fast, over θ_h slowly.
+    let row =
+        |row: i32| 20.0 * (f64::from(row % 90) / 20.0).cos() + 15.0 * f64::from(row / 90) / 90.0;
+    let rows = (0..90 * 90).map(row);
     let plane: Vec<f64> = rows.flat_map(|row| (0..180).map(move |p| row + value(p))).collect();
+    let planes = [1.0, 2.0, 3.0].map(|scale| plane.iter().map(move |x| (scale * x).to_le_bytes()));
     let mut bytes: Vec<u8> = [90_u32, 90, 180].iter().flat_map(|n| n.to_le_bytes()).collect();
-    bytes.extend([&plane, &plane, &plane].into_iter().flatten().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(planes.into_iter().flatten().flatten());
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("waves.binary");
     std::fs::write(&path, bytes).expect("can write");
@@ -245,7 +236,7 @@ fn furnace(brdf: &Brdf, view: Vec3) -> f32 {
             VirtualLight { flux, ..light(place, -place, -place, Brdf::lambert(Vec3::ONE)) }
         })
         .collect();
-    let surfaces = [surface(Vec3::ZERO, Vec3::Y, *brdf)];
+    let surfaces = [SurfaceRecord::new(Vec3::ZERO, Vec3::Y, *brdf)];
     gather(&GPU, &surfaces, view, &lights, &SETTINGS).expect("a gather")[0][0]
 }
 

@@ -26,12 +26,6 @@ const SETTINGS: Settings = Settings {
     scale: 1.0,
 };
 
-fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, lobe, alpha } = brdf;
-    let f90 = lobe.slot();
-    SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
-}
-
 fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> SphericalLight {
     let incoming = (normal + 0.5 * normal.any_orthonormal_vector()).normalize();
     let (geometric_normal, flux) = (normal, Vec3::ONE);
@@ -75,7 +69,7 @@ fn cases() -> Vec<Case> {
             let origin = size * Vec3::new(0.3, -0.2, 0.5);
             let camera = origin + size * oblique(Vec3::new(0.4, 1.0, 0.2));
             let across = oblique(Vec3::new(0.3, 1.0, 0.1)).normalize();
-            let receiver = surface(origin, up, brdf);
+            let receiver = SurfaceRecord::new(origin, up, brdf);
             let facing = |d: f32, radius| (receiver, light(origin + d * across, -up, brdf, radius));
             let beside = |d: f32| {
                 let away = oblique(Vec3::new(1.0, 0.01, 0.0));
@@ -99,7 +93,7 @@ fn cases() -> Vec<Case> {
         }
         let behind = (1..20).map(|i| {
             let away = oblique(Vec3::new(0.2, -0.1 * i as f32, 0.4));
-            (surface(Vec3::ZERO, up, brdf), light(away, up, brdf, 0.3))
+            (SurfaceRecord::new(Vec3::ZERO, up, brdf), light(away, up, brdf, 0.3))
         });
         add("back faces", up, behind.collect());
         let grazing = (1..=12).map(|i| {
@@ -107,7 +101,7 @@ fn cases() -> Vec<Case> {
             let angle = 10_f32.powf(-0.5 * i as f32);
             let normal = Vec3::new(angle.cos(), angle.sin(), 0.0);
             let sphere = light(Vec3::new(1.0, 0.7, 0.3), -Vec3::X, brdf, 0.3);
-            (surface(Vec3::ZERO, normal, brdf), sphere)
+            (SurfaceRecord::new(Vec3::ZERO, normal, brdf), sphere)
         });
         add("grazing view", Vec3::Y, grazing.collect());
     }

@@ -4,7 +4,7 @@ mod common;
 
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 
-use common::{GPU, SETTINGS, glossy, light, render, surface};
+use common::{GPU, SETTINGS, glossy, light, render};
 use glam::Vec3;
 use manylights_gpu::{RadiusRule, SurfaceRecord};
 use manylights_scene::Brdf;
@@ -21,7 +21,7 @@ fn radiance(surface: SurfaceRecord, sphere: SphericalLight, settings: &Settings)
 /// Values along a path of the light, by cone samples.
 fn along(places: impl Iterator<Item = (Vec3, Vec3)>, brdf: Brdf, radius: f32) -> Vec<f32> {
     let settings = Settings { samples: 4096, sampling: Sampling::Cone, ..SETTINGS };
-    let receiver = surface(Vec3::ZERO, Vec3::Y, brdf);
+    let receiver = SurfaceRecord::new(Vec3::ZERO, Vec3::Y, brdf);
     places
         .map(|(place, normal)| radiance(receiver, light(place, normal, brdf, radius), &settings))
         .collect()
@@ -68,7 +68,7 @@ fn the_unit_of_length_does_not_matter() {
     let pair = |size: f32| {
         let mut sphere = light(size * Vec3::new(-0.3, 0.4, 0.1), -Vec3::Y, glossy(0.7), 0.3 * size);
         sphere.light.flux *= size * size;
-        (surface(Vec3::ZERO, Vec3::Y, glossy(0.6)), sphere)
+        (SurfaceRecord::new(Vec3::ZERO, Vec3::Y, glossy(0.6)), sphere)
     };
     for sampling in SAMPLINGS {
         let settings = Settings { samples: 25, sampling, ..SETTINGS };
@@ -88,7 +88,7 @@ fn the_unit_of_length_does_not_matter() {
 
 #[test]
 fn back_faces_are_dark() {
-    let receiver = surface(Vec3::ZERO, Vec3::Y, glossy(0.3));
+    let receiver = SurfaceRecord::new(Vec3::ZERO, Vec3::Y, glossy(0.3));
     for sampling in SAMPLINGS {
         let settings = Settings { sampling, ..SETTINGS };
         // Below the receiver; above it but shining away; on the same plane, shining the same way.
@@ -110,7 +110,7 @@ fn nothing_is_ever_non_finite() {
             // From facing the camera to within 1e-6 of its horizon.
             let (view, side) = (CAMERA.normalize(), CAMERA.any_orthonormal_vector());
             let normal = (tilt.cos() * view + tilt.sin() * side).normalize();
-            surfaces.push(surface(Vec3::ZERO, normal, glossy(roughness)));
+            surfaces.push(SurfaceRecord::new(Vec3::ZERO, normal, glossy(roughness)));
         }
     }
     let mut lights = Vec::new();
@@ -138,7 +138,7 @@ fn nothing_is_ever_non_finite() {
 /// A camera that rounding puts on the receiver's horizon, and lights on it.
 #[test]
 fn a_view_on_the_horizon_is_finite() {
-    let surfaces = [surface(Vec3::ZERO, Vec3::Y, glossy(0.3))];
+    let surfaces = [SurfaceRecord::new(Vec3::ZERO, Vec3::Y, glossy(0.3))];
     let lights = [0.0, 0.4].map(|radius| light(Vec3::NEG_X, Vec3::X, glossy(0.3), radius));
     for eye in [Vec3::X, Vec3::new(1.0, -1e-8, 0.0), Vec3::new(1.0, 1e-30, 0.0)] {
         for sampling in SAMPLINGS {
@@ -152,7 +152,7 @@ fn a_view_on_the_horizon_is_finite() {
 
 #[test]
 fn no_lights_are_a_black_picture() {
-    let surfaces = [surface(Vec3::ZERO, Vec3::Y, glossy(0.3))];
+    let surfaces = [SurfaceRecord::new(Vec3::ZERO, Vec3::Y, glossy(0.3))];
     let pixels = gather(&GPU, &surfaces, CAMERA, &[], &SETTINGS, 0).expect("a gather");
     assert_eq!(pixels, [[0.0; 3]]);
 }

@@ -4,7 +4,7 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{GPU, SETTINGS, glossy, light, render, surface};
+use common::{GPU, SETTINGS, glossy, light, render};
 use glam::{DVec2, DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;
@@ -45,7 +45,7 @@ fn pairs() -> Vec<(String, SurfaceRecord, SphericalLight)> {
                 let toward = (Vec3::new(0.2, 0.0, 0.1) - position).normalize();
                 let name = format!("{of} by {by}, {place}");
                 let sphere = light(position, toward, emitter, radius);
-                pairs.push((name, surface(Vec3::ZERO, Vec3::Y, brdf), sphere));
+                pairs.push((name, SurfaceRecord::new(Vec3::ZERO, Vec3::Y, brdf), sphere));
             }
         }
     }
@@ -86,7 +86,7 @@ fn lambert_has_a_closed_form() {
     for radius in [1e-3, 0.2, 0.6] {
         let place = Vec3::new(-0.4, 1.2, 0.3);
         let sphere = light(place, Vec3::new(0.1, -1.0, 0.2).normalize(), brdf, radius);
-        let surface = surface(Vec3::ZERO, Vec3::Y, brdf);
+        let surface = SurfaceRecord::new(Vec3::ZERO, Vec3::Y, brdf);
         let found = gather(&GPU, &[surface], CAMERA, &[sphere], &settings, 0).expect("a gather");
         let [n, m] = [Vec3::Y, -sphere.light.geometric_normal].map(|normal| normal.as_dvec3());
         let axis = place.as_dvec3().normalize();
@@ -104,7 +104,7 @@ fn lambert_has_a_closed_form() {
 /// A light whose primary light is on its normal has no tangent of its own.
 #[test]
 fn normal_incidence_on_a_light() {
-    let receiver = surface(Vec3::ZERO, Vec3::Y, Brdf::lambert(Vec3::splat(0.5)));
+    let receiver = SurfaceRecord::new(Vec3::ZERO, Vec3::Y, Brdf::lambert(Vec3::splat(0.5)));
     let settings = Settings { samples: 1, scale: 0.0, ..SETTINGS };
     for index in 0..64 {
         let (sin, cos) = (index as f32).sin_cos();
@@ -148,7 +148,7 @@ fn nine_samples_are_right_on_average() {
 fn the_balance_heuristic_saves_either_strategy() {
     let deviation = |brdf: Brdf, sphere: &SphericalLight, sampling| {
         let settings = Settings { sampling, ..SETTINGS };
-        let surfaces = [surface(Vec3::ZERO, Vec3::Y, brdf); 4096];
+        let surfaces = [SurfaceRecord::new(Vec3::ZERO, Vec3::Y, brdf); 4096];
         let pixels = gather(&GPU, &surfaces, CAMERA, &[*sphere], &settings, 0).expect("a gather");
         let mean = pixels.iter().map(|pixel| pixel[0]).sum::<f32>() / 4096.0;
         let square = pixels.iter().map(|pixel| (pixel[0] / mean - 1.0).powi(2)).sum::<f32>();
@@ -197,7 +197,7 @@ fn small_spheres_are_point_lights() {
 #[test]
 fn the_limit_is_of_second_order() {
     let plain = manylights_vpl::Settings { lights: 1, clamp: None, radius: None };
-    let surface = surface(Vec3::ZERO, Vec3::Y, glossy(0.6));
+    let surface = SurfaceRecord::new(Vec3::ZERO, Vec3::Y, glossy(0.6));
     let error = |radius| {
         let sphere = light(Vec3::new(-0.9, 1.2, 0.3), Vec3::NEG_Y, glossy(0.8), radius);
         let point =

@@ -14,6 +14,7 @@ const POINTS: usize = SIZE[0] * SIZE[1] * SIZE[2];
 const SCALE: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];
 
 /// The table of one material: red, green, blue for each point, φ_d first.
+#[derive(PartialEq)]
 pub(super) struct Merl {
     values: Vec<f32>,
 }

@@ -1,8 +1,9 @@
 //! Measured reflectances: files of the RGL and MERL databases, isotropic.
 //!
-//! A table that was read lives as long as the process: a [`Brdf`](crate::Brdf) with a measurement is as
-//! small a value as any other, and so are the records made from it. Reading the same data again finds
-//! the table that is there.
+//! There is one instance of a measurement in the whole process, and it lives as long: a
+//! [`Brdf`](crate::Brdf) with a measurement is as small a value as any other, and so are the records
+//! made from it. Reading the same data again, also for another scene, finds the table that is there;
+//! dropping a scene frees none.
 
 mod estimate;
 mod merl;
@@ -30,18 +31,17 @@ const MAX_FILE: u64 = 1 << 26;
 /// All tables so far; a table's number is its index.
 static TABLES: RwLock<Vec<&'static Table>> = RwLock::new(Vec::new());
 
-/// A measured reflectance.
+/// A measured reflectance: which of the tables that this process has read.
 #[derive(Clone, Copy)]
 pub struct Measured(&'static Table);
 
 struct Table {
     number: u32,
     values: Values,
-    /// As the adapter reads them.
-    words: Vec<u32>,
     estimate: Estimate,
 }
 
+#[derive(PartialEq)]
 enum Values {
     Rgl(Rgl),
     Merl(Merl),
@@ -53,7 +53,8 @@ fn broken(place: impl std::fmt::Display, problem: impl std::fmt::Display) -> Loa
 }
 
 impl Measured {
-    /// Reads a `.bsdf` file of the RGL database (isotropic, RGB) or a `.binary` file of MERL.
+    /// Reads a `.bsdf` file of the RGL database (isotropic, RGB) or a `.binary` file of MERL. Its memory
+    /// (17 MB for MERL) stays in use until the process ends.
     ///
     /// # Errors
     /// One line with the file, what is wrong and how to mend it.
@@ -82,19 +83,18 @@ impl Measured {
     }
 
     fn keep(values: Values) -> Self {
-        let words = values.words();
+        let mut tables = TABLES.write().unwrap_or_else(PoisonError::into_inner);
+        if let Some(table) = tables.iter().find(|table| table.values == values) {
+            return Self(table);
+        }
         let estimate = match &values {
             Values::Rgl(rgl) => Estimate::new(&values, |theta| rgl.distribution(theta)),
             Values::Merl(_) => {
                 Estimate::new(&values, |theta| estimate::backscatter(&values, theta))
             }
         };
-        let mut tables = TABLES.write().unwrap_or_else(PoisonError::into_inner);
-        if let Some(table) = tables.iter().find(|table| table.words == words) {
-            return Self(table);
-        }
         let number = tables.len() as u32;
-        let table = Box::leak(Box::new(Table { number, values, words, estimate }));
+        let table = Box::leak(Box::new(Table { number, values, estimate }));
         tables.push(table);
         Self(table)
     }
@@ -105,14 +105,15 @@ impl Measured {
         tables.get(number as usize).map(|table| Self(table))
     }
 
-    /// Its number in this process, from 0: what records on the adapter hold.
+    /// Its number in this process, from 0 in the order of reading: what records on the adapter hold.
+    /// Another process may number otherwise: it is for no file.
     pub fn number(self) -> u32 {
         self.0.number
     }
 
     /// All its numbers as `shaders/measured.wesl` reads them: integers, and the bits of f32.
-    pub fn words(self) -> &'static [u32] {
-        &self.0.words
+    pub fn words(self) -> Vec<u32> {
+        self.0.values.words()
     }
 
     /// The reflectance. `alpha`, `f0` and `diffuse` are those of a GGX and a Lambertian lobe that
@@ -154,6 +155,6 @@ impl PartialEq for Measured {
 
 impl Debug for Measured {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
-        write!(formatter, "Measured({} numbers)", self.0.words.len())
+        write!(formatter, "Measured({} numbers)", self.words().len())
     }
 }

@@ -14,6 +14,7 @@ use super::{RGL, Real, broken};
 use crate::LoadError;
 
 /// Tables of one material. Grids are row-major, columns first in their sizes.
+#[derive(PartialEq)]
 pub(super) struct Rgl {
     /// Ascending θ_v, radians: at least two.
     angles: Vec<f32>,
@@ -78,9 +79,15 @@ impl Rgl {
         if count < 2 || !angles.is_sorted_by(|a, b| a < b) {
             return Err(broken("theta_i", "does not ascend over two angles or more"));
         }
-        let ([_, angles_of_density, rows, columns], density) = file.floats("vndf")?;
-        let ([_, angles_of_color, channels, color_rows, color_columns], color) =
-            file.floats("rgb")?;
+        let one_azimuth = || broken("vndf, rgb", "have more than one azimuth");
+        let ([1, angles_of_density, rows, columns], density) = file.floats("vndf")? else {
+            return Err(one_azimuth());
+        };
+        let ([1, angles_of_color, channels, color_rows, color_columns], color) =
+            file.floats("rgb")?
+        else {
+            return Err(one_azimuth());
+        };
         if [angles_of_density, angles_of_color, channels] != [count, count, 3] {
             return Err(broken("vndf, rgb", "do not fit theta_i and three channels"));
         }
@@ -95,6 +102,9 @@ impl Rgl {
         }
         if area.iter().any(|&area| area <= 0.0) {
             return Err(broken("sigma", "is not positive"));
+        }
+        if distribution.iter().any(|&distribution| distribution < 0.0) {
+            return Err(broken("ndf", "is negative"));
         }
         let mut made = Self {
             angles,

@@ -79,12 +79,6 @@ fn parameters(settings: &Settings) -> Parameters {
         .expect("in range")
 }
 
-pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, lobe, alpha } = brdf;
-    let f90 = lobe.slot();
-    SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
-}
-
 pub(crate) fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> SphericalLight {
     let incoming = (normal + 0.5 * normal.any_orthonormal_vector()).normalize();
     let (geometric_normal, flux) = (normal, Vec3::ONE);
