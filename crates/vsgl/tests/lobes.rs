@@ -83,11 +83,16 @@ fn fitted_errors(name: &str, view: f64, sharpness: f64) -> [f64; 2] {
 
 #[test]
 fn fitted_lobes() {
-    for name in FITTED {
+    // What was measured, rounded up. Reflectances of an index near 1 rise so steeply towards grazing
+    // light that the dominant direction of the lobe is far from that of what it reflects.
+    let bounds = [(0.46, 0.385), (0.185, 0.12), (0.135, 0.125), (0.055, 0.085)];
+    for (name, (share_bound, rms_bound)) in FITTED.into_iter().zip(bounds) {
         for view in [10.0, 45.0, 75.0] {
             for sharpness in [2.3, 20.0] {
                 let [share, rms] = fitted_errors(name, view, sharpness);
                 println!("{name} {view}° λ {sharpness}: {share:+.3} {rms:.3}");
+                assert!(share.abs() < share_bound, "{name} {view}° λ {sharpness}: {share}");
+                assert!(rms < rms_bound, "{name} {view}° λ {sharpness}: {rms}");
             }
         }
     }
@@ -129,12 +134,14 @@ fn albedos() {
 #[test]
 fn mirrors() {
     for index in [1.05, 1.5, 3.8] {
-        let errors = (1..=200).map(|step| {
+        // Closer to grazing light than a twentieth even this lobe is no mirror.
+        let errors = (10..=200).map(|step| {
             let cosine = f64::from(step) / 200.0;
             exact_albedo(1e-3, index, cosine) / DBrdf::relative_fresnel(index, cosine) - 1.0
         });
         let worst = errors.map(f64::abs).fold(0.0, f64::max);
         println!("index {index}: {worst:.1e}");
-        assert!(worst < 0.005, "{index}: {worst}");
+        // The table is linear between its cosines.
+        assert!(worst < 0.0015, "{index}: {worst}");
     }
 }
