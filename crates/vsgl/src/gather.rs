@@ -2,7 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, link};
+use manylights_gpu::{
+    Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, link,
+};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{GaussianLight, Settings, SpecularLobe};
@@ -13,24 +15,24 @@ const GLOSSY_CAPACITY: usize = 256;
 
 const PIXELS_A_GROUP: u32 = 64;
 
-/// The WGSL of the kernel for receivers and lights of the given lobes.
+/// The WGSL of the kernel for receivers of the given reflectances and lights with or without a
+/// specular lobe.
 ///
 /// # Errors
 /// Where the shader does not link.
 pub fn linked_shader(
-    glossy_receivers: bool,
+    kinds: &Reflectances,
     glossy_lights: bool,
     traced: bool,
     settings: &Settings,
 ) -> Result<String, Error> {
     let features = [
-        ("glossy_receivers", glossy_receivers),
+        ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("filtered", settings.lobe == SpecularLobe::Filtered),
         ("traced", traced),
-        ("exact_fresnel", false),
-        ("measured", false),
     ];
+    let features = [&features[..], &kinds.features()].concat();
     let modules = [
         ("gaussian", include_str!("shaders/gaussian.wesl")),
         ("reflection", include_str!("shaders/reflection.wesl")),
@@ -66,7 +68,7 @@ pub(crate) fn batches(
     )
 }
 
-/// For `pixels` surfaces seen from `camera`; without `specular` no kernel knows GGX.
+/// For `pixels` surfaces seen from `camera`; kernels know the given reflectances alone.
 ///
 /// # Errors
 /// Where a shader does not link or the adapter refuses.
@@ -74,15 +76,15 @@ pub(crate) fn gather(
     gpu: &Gpu,
     pixels: u32,
     camera: Vec3,
-    specular: bool,
+    kinds: &Reflectances,
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     let view = View { camera, pixels };
     let traced = shadows.is_some();
     let wgsl = [
-        linked_shader(specular, false, traced, settings)?,
-        linked_shader(specular, specular, traced, settings)?,
+        linked_shader(kinds, false, traced, settings)?,
+        linked_shader(kinds, kinds.specular, traced, settings)?,
     ];
     let wgsl = wgsl.each_ref().map(String::as_str);
     LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, Vec::new(), shadows)

@@ -3,13 +3,13 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use manylights_gpu::{
-    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, LitTexel, LitTexels, PassTime, Resource,
-    SurfaceRecord, link, lit_texels, scene_maps,
+    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, LitTexel, LitTexels, PassTime, Reflectances,
+    Resource, SurfaceRecord, link, lit_texels, scene_maps,
 };
-use manylights_scene::Scene;
+use manylights_scene::{Brdf, Scene};
 
 use crate::Settings;
-use crate::albedo::ALBEDOS;
+use crate::albedo::{ALBEDOS, ExactLobe, exact_lobes};
 
 /// One spherical Gaussian that emits from a cloud of places, as `shaders/filter.wesl` writes it.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -60,13 +60,41 @@ impl GaussianLight {
     }
 }
 
-/// The WGSL of the filter; without `specular` it knows no GGX.
+/// What the filter must know of the materials of its texels.
+pub(crate) struct Materials {
+    pub(crate) kinds: Reflectances,
+    exact_lobes: Vec<ExactLobe>,
+}
+
+impl Materials {
+    pub(crate) fn of_scene(scene: &Scene) -> Self {
+        Self::of(scene.materials.iter().map(|material| material.brdf(material.base_color)))
+    }
+
+    fn of(brdfs: impl Iterator<Item = Brdf> + Clone) -> Self {
+        Self { kinds: Reflectances::of(brdfs.clone()), exact_lobes: exact_lobes(brdfs) }
+    }
+
+    /// The tables that the filter reads.
+    fn tables(&self, gpu: &Gpu) -> Result<Vec<Buffer>, Error> {
+        let mut tables = Vec::new();
+        if self.kinds.specular {
+            tables.push(gpu.storage("albedos", &ALBEDOS)?);
+        }
+        if self.kinds.exact_fresnel {
+            tables.push(gpu.storage("exact lobes", &self.exact_lobes)?);
+        }
+        Ok(tables)
+    }
+}
+
+/// The WGSL of the filter for texels of the given reflectances.
 ///
 /// # Errors
 /// Where the shader does not link.
-pub fn filter_shader(specular: bool) -> Result<String, Error> {
+pub fn filter_shader(kinds: &Reflectances) -> Result<String, Error> {
     let modules = [("emission", include_str!("shaders/emission.wesl"))];
-    let features = [("specular", specular), ("exact_fresnel", false), ("measured", false)];
+    let features = [&[("specular", kinds.specular)][..], &kinds.features()].concat();
     link("filter", include_str!("shaders/filter.wesl"), &modules, &features)
 }
 
@@ -81,14 +109,24 @@ pub fn gaussian_lights(
     settings: &Settings,
     seed: u64,
 ) -> Result<(Vec<GaussianLight>, Vec<PassTime>), Error> {
-    let specular = scene.has_specular();
+    lights_of_materials(frame, scene, &Materials::of_scene(scene), settings, seed)
+}
+
+/// [`gaussian_lights`] of a scene whose materials are known.
+pub(crate) fn lights_of_materials(
+    frame: &GpuFrame,
+    scene: &Scene,
+    materials: &Materials,
+    settings: &Settings,
+    seed: u64,
+) -> Result<(Vec<GaussianLight>, Vec<PassTime>), Error> {
     let mut lights = Vec::new();
     let mut times = Vec::new();
     for map in scene_maps(scene, settings.lights, seed) {
         let (texels, passes) = lit_texels(frame, &map.refined(settings.texels))?;
         times.extend(passes);
         let groups = map.projection.resolution;
-        let (filtered, time) = filter(frame.gpu(), &texels, groups, settings.texels, specular)?;
+        let (filtered, time) = filter(frame.gpu(), &texels, groups, settings.texels, materials)?;
         times.extend(time);
         lights.extend(filtered.into_iter().flatten());
     }
@@ -109,12 +147,12 @@ pub fn filter_group(
     let side = texels.len().isqrt();
     assert_eq!(side * side, texels.len(), "a group is a square of texels");
     let (surfaces, lit): (Vec<_>, Vec<_>) = texels.iter().copied().unzip();
-    let specular = surfaces.iter().any(|surface| surface.brdf().has_specular());
+    let materials = Materials::of(surfaces.iter().map(SurfaceRecord::brdf));
     let texels = LitTexels {
         surfaces: gpu.storage("surfaces", &surfaces)?,
         texels: gpu.storage("lit texels", &lit)?,
     };
-    let (lights, _) = filter(gpu, &texels, [1, 1], side as u32, specular)?;
+    let (lights, _) = filter(gpu, &texels, [1, 1], side as u32, &materials)?;
     Ok(lights.into_iter().flatten().next())
 }
 
@@ -124,9 +162,9 @@ fn filter(
     map: &LitTexels,
     groups: [u32; 2],
     side: u32,
-    specular: bool,
+    materials: &Materials,
 ) -> Result<(Vec<Option<GaussianLight>>, Vec<PassTime>), Error> {
-    let kinds = if specular { 2 } else { 1 };
+    let kinds = if materials.kinds.specular { 2 } else { 1 };
     let count = groups[0] as usize * groups[1] as usize;
     let lobes = gpu.zeroed("lobes", (count * kinds * size_of::<Lobe>()) as u64)?;
     let centers = gpu.zeroed("centers", (count * size_of::<Center>()) as u64)?;
@@ -134,12 +172,10 @@ fn filter(
     let mut bindings = vec![Binding::Uniform, Binding::Storage, Binding::Storage];
     bindings.extend([Binding::StorageMut; 2]);
     let mut buffers: Vec<&Buffer> = vec![&sides, &map.surfaces, &map.texels, &lobes, &centers];
-    let albedos = gpu.storage("albedos", if specular { ALBEDOS.as_slice() } else { &[] })?;
-    if specular {
-        bindings.push(Binding::Storage);
-        buffers.push(&albedos);
-    }
-    let kernel = gpu.kernel("filter", &filter_shader(specular)?, &bindings)?;
+    let tables = materials.tables(gpu)?;
+    bindings.resize(bindings.len() + tables.len(), Binding::Storage);
+    buffers.extend(&tables);
+    let kernel = gpu.kernel("filter", &filter_shader(&materials.kinds)?, &bindings)?;
     let resources: Vec<_> = buffers.into_iter().map(Resource::Buffer).collect();
     let times = gpu.run(&[Dispatch {
         pass: "filter",

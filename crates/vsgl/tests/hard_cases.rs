@@ -5,7 +5,7 @@ mod common;
 
 use std::f32::consts::FRAC_PI_2;
 
-use common::{GPU, LOBES, SETTINGS, empty, glossy, lobe, render, surface, texel};
+use common::{FITTED, GPU, LOBES, SETTINGS, empty, glossy, lobe, preset, render, surface, texel};
 use glam::Vec3;
 use manylights_gpu::{LitTexel, SurfaceRecord};
 use manylights_scene::Brdf;
@@ -91,11 +91,12 @@ fn filtering_keeps_its_digits() {
 #[test]
 fn nothing_is_ever_non_finite() {
     let mut surfaces = Vec::new();
-    for roughness in [0.03, 0.1, 0.3, 1.0] {
+    let brdfs = [0.03, 0.1, 0.3, 1.0].map(glossy).into_iter().chain(FITTED.map(preset));
+    for brdf in brdfs {
         for tilt in [0.0, 1.0, FRAC_PI_2 - 1e-3, FRAC_PI_2 - 1e-6] {
             let (view, side) = (CAMERA.normalize(), CAMERA.any_orthonormal_vector());
             let normal = (tilt.cos() * view + tilt.sin() * side).normalize();
-            surfaces.push(surface(Vec3::ZERO, normal, glossy(roughness)));
+            surfaces.push(surface(Vec3::ZERO, normal, brdf));
         }
     }
     let mut lights = Vec::new();

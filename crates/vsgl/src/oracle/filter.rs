@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3};
 use manylights_gpu::{LitTexel, SurfaceRecord};
-use manylights_scene::DBrdf;
+use manylights_scene::{DBrdf, Lobe as Specular};
 
 use super::gaussian::{blur, sharpness};
 use super::reflection::dominant_normal;
-use crate::albedo::interpolated;
+use crate::albedo::{exact_interpolated, interpolated};
 
 /// One spherical Gaussian that emits from a cloud of places.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -75,8 +75,13 @@ fn mean<'a>(
 fn diffuse(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     let brdf = DBrdf::from(surface.brdf());
     let entering = brdf.transmission(cosine(surface, texel));
-    // ∫ 2c (1 − c)⁵ dc = 1/21.
-    let leaving = 1.0 - (brdf.f0 * (20.0 / 21.0) + f64::from(brdf.lobe.f90()) / 21.0).max_element();
+    let leaving = match brdf.lobe {
+        // ∫ 2c (1 − c)⁵ dc = 1/21.
+        Specular::Schlick { f90 } => {
+            1.0 - (brdf.f0 * (20.0 / 21.0) + f64::from(f90) / 21.0).max_element()
+        }
+        Specular::Dielectric { .. } | Specular::Measured(_) => 1.0,
+    };
     Emission {
         power: texel.flux.as_dvec3() * brdf.diffuse * (entering * leaving),
         axis: texel.geometric_normal.as_dvec3().normalize(),
@@ -102,8 +107,17 @@ fn specular(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     let view_m = incoming.dot(micro);
     let axis = (2.0 * view_m * micro - incoming).normalize();
     let lobe = (2.0 / alpha2 - 2.0) * local.z / (4.0 * view_m);
-    let albedo = interpolated(brdf.alpha.sqrt(), view_n);
-    let reflected = brdf.f0 * albedo.x + DVec3::splat(f64::from(brdf.lobe.f90()) * albedo.y);
+    let reflected = match brdf.lobe {
+        Specular::Schlick { f90 } => {
+            let albedo = interpolated(brdf.alpha.sqrt(), view_n);
+            brdf.f0 * albedo.x + DVec3::splat(f64::from(f90) * albedo.y)
+        }
+        Specular::Dielectric { index } => {
+            brdf.f0 * exact_interpolated(brdf.alpha, index.into(), view_n)
+        }
+        // The method declines them.
+        Specular::Measured(_) => DVec3::ZERO,
+    };
     let geometric = texel.geometric_normal.as_dvec3().normalize().dot(axis) / normal.dot(axis);
     Emission {
         power: texel.flux.as_dvec3() * reflected * geometric.clamp(0.0, 2.0),
@@ -115,4 +129,9 @@ fn specular(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
 /// Directional albedo of a white lobe's two parts, as the filter reads it from its table.
 pub fn albedo(alpha: f64, cosine: f64) -> DVec2 {
     interpolated(alpha.sqrt(), cosine)
+}
+
+/// The same of a lobe with exact Fresnel reflectance, over f0.
+pub fn exact_albedo(alpha: f64, index: f64, cosine: f64) -> f64 {
+    exact_interpolated(alpha, index, cosine)
 }

@@ -15,7 +15,7 @@ use crate::{GaussianLight, Settings, SpecularLobe};
 use gaussian::{Gaussian, SHARPEST, clamped_cosine, integral};
 use reflection::{Reflection, anisotropic, filtered};
 
-pub use filter::{DIFFUSE_SHARPNESS, Lobe, albedo, filter};
+pub use filter::{DIFFUSE_SHARPNESS, Lobe, albedo, exact_albedo, filter};
 
 impl From<&crate::Lobe> for Lobe {
     fn from(lobe: &crate::Lobe) -> Self {

@@ -4,11 +4,13 @@
 use std::sync::LazyLock;
 
 use bytemuck::Zeroable;
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use manylights_gpu::{Gpu, GpuFrame, LitTexel, SurfaceRecord};
+use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
 use manylights_metrics::RadianceImage;
-use manylights_scene::Brdf;
+use manylights_scene::presets::PRESETS;
+use manylights_scene::{Brdf, Scene};
 use manylights_vsgl::{GaussianLight, Lobe, Settings, SpecularLobe, Vsgl, gaussian_lights, oracle};
 
 pub(crate) static GPU: LazyLock<Gpu> =
@@ -28,10 +30,36 @@ pub(crate) struct Picture {
 
 pub(crate) fn render(scene: &str, resolution: [u32; 2], settings: &Settings, seed: u64) -> Picture {
     let scene = manylights_scene::load(scene, None).expect("built in");
+    render_scene(&scene, resolution, settings, seed)
+}
+
+/// A built-in scene with fitted materials, in turn: lobes with the exact Fresnel term.
+pub(crate) fn fitted(scene: &str) -> Scene {
+    let mut scene = manylights_scene::load(scene, None).expect("built in");
+    let presets = FITTED.iter().cycle();
+    for (material, name) in scene.materials.iter_mut().zip(presets) {
+        *material = material.clone().with_brdf(preset(name));
+    }
+    scene
+}
+
+/// Rough and smooth, of indices 1.05 to 3.8.
+pub(crate) const FITTED: [&str; 4] = ["white-fabric", "gold-paint", "teflon", "red-phenolic"];
+
+pub(crate) fn preset(name: &str) -> Brdf {
+    PRESETS.iter().find(|preset| preset.name == name).expect("a preset").brdf()
+}
+
+pub(crate) fn render_scene(
+    scene: &Scene,
+    resolution: [u32; 2],
+    settings: &Settings,
+    seed: u64,
+) -> Picture {
     let camera = &scene.cameras[0];
-    let on_gpu = GpuFrame::new(&GPU, &scene, camera, resolution).expect("the scene fits");
+    let on_gpu = GpuFrame::new(&GPU, scene, camera, resolution).expect("the scene fits");
     let frame = Frame {
-        scene: &scene,
+        scene,
         camera,
         resolution,
         transport: Transport::Indirect { bounces: 1, visibility: Visibility::Ignored },
@@ -45,7 +73,7 @@ pub(crate) fn render(scene: &str, resolution: [u32; 2], settings: &Settings, see
     assert_eq!(passes, ["distribute", "filter", "gather"]);
 
     let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("read-back");
-    let (lights, _) = gaussian_lights(&on_gpu, &scene, settings, seed).expect("lights");
+    let (lights, _) = gaussian_lights(&on_gpu, scene, settings, seed).expect("lights");
     let eye = camera.position.as_dvec3();
     let oracle =
         surfaces.iter().map(|surface| oracle::radiance(surface, eye, &lights, settings)).collect();
@@ -107,4 +135,24 @@ pub(crate) fn empty() -> (SurfaceRecord, LitTexel) {
 
 pub(crate) fn lobe(position: Vec3, axis: Vec3, sharpness: f32, variance: f32) -> Lobe {
     Lobe { position, variance, axis: axis.normalize(), sharpness, power: Vec3::ONE, padding: 0.0 }
+}
+
+/// Directions and weights times a Gaussian of amplitude 1 about `axis`.
+pub(crate) fn weighted(axis: DVec3, sharpness: f64, count: usize) -> Vec<(DVec3, f64)> {
+    let (a, b) = axis.any_orthonormal_pair();
+    let frame = DMat3::from_cols(a, b, axis);
+    let cut = (1.0 - 12.0 / sharpness).max(-1.0);
+    let ranges = [[-1.0, cut], [cut, 1.0]].into_iter().filter(|[low, high]| high > low);
+    let nodes = ranges.flat_map(|range| sphere_nodes(count, range));
+    nodes
+        .map(|(w, weight)| {
+            let w = DVec3::from_array(w);
+            (frame * w, weight * (-0.5 * sharpness * (w - DVec3::Z).length_squared()).exp())
+        })
+        .collect()
+}
+
+/// At this cosine to z, in the x-z plane.
+pub(crate) fn at(cosine: f64) -> DVec3 {
+    DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine)
 }
