@@ -1,11 +1,11 @@
 //! Tables by what they depend on: each is made once in a process.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard};
 
-use crate::Damping;
+use crate::{Damping, LobeShape};
 
-/// GGX width as bits, bands, window.
-type Key = (u32, usize, Damping);
+/// Shape as bits, bands, window.
+type Key = ([u32; 2], usize, Damping);
 
 /// A list: pictures have few materials.
 pub(crate) struct Cache<T>(Mutex<Vec<(Key, Arc<T>)>>);
@@ -15,19 +15,30 @@ impl<T> Cache<T> {
         Self(Mutex::new(Vec::new()))
     }
 
-    /// The table of this key, made where there is none yet.
+    /// The table of this key, made where there is none yet. Nothing is locked meanwhile: a table is
+    /// made on rayon's threads, which may come back here. Of two made at once the first stays.
     pub(crate) fn get(
         &self,
-        (alpha, bands, damping): (f32, usize, Damping),
+        (shape, bands, damping): (LobeShape, usize, Damping),
         make: impl FnOnce() -> T,
     ) -> Arc<T> {
-        let key = (alpha.to_bits(), bands, damping);
-        let mut tables = self.0.lock().unwrap_or_else(|poison| poison.into_inner());
-        if let Some((_, table)) = tables.iter().find(|(known, _)| *known == key) {
-            return table.clone();
+        let key = (shape.bits(), bands, damping);
+        if let Some(table) = find(&self.lock(), &key) {
+            return table;
         }
         let table = Arc::new(make());
-        tables.push((key, table.clone()));
-        table
+        let mut tables = self.lock();
+        find(&tables, &key).unwrap_or_else(|| {
+            tables.push((key, table.clone()));
+            table
+        })
     }
+
+    fn lock(&self) -> MutexGuard<'_, Vec<(Key, Arc<T>)>> {
+        self.0.lock().unwrap_or_else(|poison| poison.into_inner())
+    }
+}
+
+fn find<T>(tables: &[(Key, Arc<T>)], key: &Key) -> Option<Arc<T>> {
+    tables.iter().find(|(known, _)| known == key).map(|(_, table)| table.clone())
 }

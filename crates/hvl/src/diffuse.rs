@@ -13,7 +13,7 @@ use manylights_scene::DBrdf;
 use crate::params::Damping;
 
 /// [a, b] of the transmission T.
-pub fn transmission(brdf: &DBrdf) -> [f64; 2] {
+pub(crate) fn transmission(brdf: &DBrdf) -> [f64; 2] {
     let facing = brdf.transmission(1.0);
     [facing, facing - brdf.transmission(0.0)]
 }
@@ -31,7 +31,7 @@ pub fn lobes(bands: usize, damping: Damping) -> Vec<[f64; 2]> {
 }
 
 /// Coefficients of Y_l0 of (1 − |c|)⁵; those of odd l vanish.
-pub fn mirrored_grazing(bands: usize) -> Vec<f64> {
+pub(crate) fn mirrored_grazing(bands: usize) -> Vec<f64> {
     let scales = zonal_scales(bands, |c| (1.0 - c).powi(5));
     let coefficient = |(l, scale): (usize, f64)| {
         if l % 2 == 0 { 2.0 * scale * addition(l).sqrt() } else { 0.0 }
@@ -56,7 +56,7 @@ fn zonal_scales(bands: usize, value: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 /// (2l + 1)/4π, of the addition theorem.
-fn addition(l: usize) -> f64 {
+pub(crate) fn addition(l: usize) -> f64 {
     (2 * l + 1) as f64 / (4.0 * PI)
 }
 
@@ -67,7 +67,7 @@ fn addition(l: usize) -> f64 {
 /// - `lambert_dot(cosine: f32, scales: array<f32, bands>) -> f32`: the same for K alone, whose odd
 ///   bands but l = 1 vanish;
 /// - `legendre(cosine: f32) -> array<f32, bands>`: P_l.
-pub fn module(bands: usize, damping: Damping) -> String {
+pub(crate) fn module(bands: usize, damping: Damping) -> String {
     let lobes = lobes(bands, damping);
     let array = format!("array<f32, {bands}>");
     let mix = lobes.iter().map(|[k, g]| format!("a * {:?} - b * {:?}", *k as f32, *g as f32));

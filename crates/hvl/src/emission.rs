@@ -10,13 +10,13 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 use manylights_gpu::VirtualLight;
-use manylights_harmonics::{Basis, count, index};
+use manylights_harmonics::{Basis, clamped_cosine, count, index};
 use manylights_scene::DBrdf;
 use rayon::prelude::*;
 
 use crate::cache::Cache;
 use crate::half_vectors::HalfVectors;
-use crate::{Damping, diffuse};
+use crate::{Damping, LobeShape, diffuse};
 
 /// Angles between primary light and normal: 0°, 1°, … 89°. At 90° the reflectance has no bound.
 pub const ANGLES: usize = 90;
@@ -24,7 +24,7 @@ pub const ANGLES: usize = 90;
 /// More than for the receivers' lobes: without the cosine the lobe ends at the horizon in a step.
 const NODES: [usize; 2] = [192, 192];
 
-/// The lobes of one α.
+/// The lobes of one shape.
 #[derive(Debug)]
 pub struct EmissionTable {
     /// [A, B] at `angle * terms(bands).count() + position`: see [`crate::lobes`].
@@ -37,14 +37,15 @@ pub fn terms(bands: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 impl EmissionTable {
-    /// The table for a GGX width and a number of bands; made once in a process.
-    pub fn of(alpha: f32, bands: usize) -> Arc<Self> {
+    /// The table for a shape and a number of bands; made once in a process.
+    pub fn of(shape: impl Into<LobeShape>, bands: usize) -> Arc<Self> {
+        let shape = shape.into();
         static TABLES: Cache<EmissionTable> = Cache::new();
-        TABLES.get((alpha, bands, Damping::None), || Self::integrate(alpha.into(), bands))
+        TABLES.get((shape, bands, Damping::None), || Self::integrate(shape, bands))
     }
 
-    fn integrate(alpha: f64, bands: usize) -> Self {
-        let (basis, lobe) = (Basis::new(bands), HalfVectors::new(alpha, NODES));
+    fn integrate(shape: LobeShape, bands: usize) -> Self {
+        let (basis, lobe) = (Basis::new(bands), HalfVectors::new(shape, NODES));
         let row = |degrees: usize| project(&basis, &lobe, (degrees as f64).to_radians());
         Self { values: (0..ANGLES).into_par_iter().flat_map_iter(row).collect() }
     }
@@ -60,20 +61,30 @@ impl EmissionTable {
     }
 }
 
-/// ∫ f(v, l) Y_lm(l) dl over the sphere, f mirrored in the horizon.
+/// ∫ f(v, l) Y_lm(l) dl over the sphere, f mirrored in the horizon, times what keeps the flux of A + B:
+/// a few bands of a lobe near the horizon put most of it where the cosine is large, up to 23 times its
+/// flux, and those of one about the normal half of it.
 fn project(basis: &Basis<f64>, lobe: &HalfVectors, view: f64) -> Vec<[f64; 2]> {
-    let terms: Vec<_> = terms(basis.bands()).collect();
+    let bands = basis.bands();
+    let terms: Vec<_> = terms(bands).collect();
     let mut sums = vec![[0.0; 2]; terms.len()];
-    let mut harmonics = vec![0.0; count(basis.bands())];
+    let mut harmonics = vec![0.0; count(bands)];
+    let mut flux = 0.0;
     for (direction, [a, b]) in lobe.reflected(DVec3::new(view.sin(), 0.0, view.cos())) {
         basis.evaluate(direction.to_array(), &mut harmonics);
+        flux += direction.z * (a + b);
         for (sum, &(l, m)) in sums.iter_mut().zip(&terms) {
             let value = 2.0 * harmonics[index(l, m as isize)];
             sum[0] += value * a;
             sum[1] += value * b;
         }
     }
-    sums
+    let mut cosine = vec![0.0; bands];
+    clamped_cosine::scales(&mut cosine);
+    let zonal = sums.iter().zip(&terms).filter(|(_, (_, m))| *m == 0);
+    let expanded: f64 =
+        zonal.map(|([a, b], &(l, _))| (a + b) * cosine[l] * diffuse::addition(l).sqrt()).sum();
+    sums.into_iter().map(|pair| pair.map(|value| value * (flux / expanded))).collect()
 }
 
 /// The row for a light: its angle in whole degrees.
@@ -96,7 +107,7 @@ pub fn reflectance(light: &VirtualLight, toward: DVec3, bands: usize) -> DVec3 {
     let local = [tangent, normal.cross(tangent), normal].map(|axis| axis.dot(toward));
     let mut harmonics = vec![0.0; count(bands)];
     Basis::new(bands).evaluate(local, &mut harmonics);
-    let table = EmissionTable::of(light.brdf.alpha, bands);
+    let table = EmissionTable::of(light.brdf, bands);
     let (mut a, mut b) = (0.0, 0.0);
     for (&[f0, f90], (l, m)) in table.row(degrees(light)).iter().zip(terms(bands)) {
         a += f0 * harmonics[index(l, m as isize)];
@@ -115,7 +126,7 @@ pub fn reflectance(light: &VirtualLight, toward: DVec3, bands: usize) -> DVec3 {
 /// - `emission_lobe(y: array<f32, bands (bands + 1)/2>, row: u32) -> vec2f`: A and B of a row of
 ///   binding 7 whose first element is `row`;
 /// - `emission_grazing(y) -> f32`: (1 − |n·l|)⁵.
-pub fn module(bands: usize) -> String {
+pub(crate) fn module(bands: usize) -> String {
     let terms: Vec<_> = terms(bands).collect();
     let size = manylights_harmonics::even_count(bands);
     let position = |&(l, m): &(usize, usize)| manylights_harmonics::even_index(l, m);

@@ -1,18 +1,20 @@
 //! The kernels and what they read.
 
+use std::cmp::Ordering;
+
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use manylights_gpu::{
     Buffer, Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, SphericalLight, link,
 };
 use manylights_harmonics::wgsl::{self, Function};
-use manylights_scene::{Brdf, Material, Scene};
+use manylights_scene::{Brdf, Lobe, Material, Scene};
 
 use crate::emission::{self, EmissionTable};
-use crate::light_record::{GlossyLight, LambertLight};
+use crate::light_record::{GlossyLight, LambertLight, rounded_shape};
 use crate::lobes::LobeTable;
 use crate::zonal::ZonalTable;
-use crate::{Form, Horizon, Settings, diffuse, receiver_lobe};
+use crate::{Form, Horizon, LobeShape, Settings, diffuse, lobe_wgsl};
 
 /// Spheres a batch, as `shaders/gather.wesl` declares its array.
 pub(crate) const CAPACITY: usize = 512;
@@ -29,6 +31,8 @@ pub struct Lobes {
     pub lights: bool,
     /// Some specular lobe is not grey at normal incidence.
     pub colored: bool,
+    /// Some specular lobe has the exact Fresnel term.
+    pub exact_fresnel: bool,
 }
 
 /// The WGSL of the kernel for receivers and lights of the given lobes.
@@ -43,7 +47,7 @@ pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<
     let modules = [
         ("sh", &*sh),
         ("diffuse", &*diffuse::module(bands, damping)),
-        ("lobe", &*receiver_lobe::module(settings)),
+        ("lobe", &*lobe_wgsl::module(settings)),
         ("emission_sh", &*emission_sh),
         ("emission", &*emission::module(emission_bands.max(1))),
         ("horizon", include_str!("shaders/horizon.wesl")),
@@ -58,7 +62,7 @@ pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<
         ("exact_horizon", settings.horizon == Horizon::Exact),
         ("expanded_emission", expanded),
         ("traced", traced),
-        ("exact_fresnel", false),
+        ("exact_fresnel", lobes.exact_fresnel),
         ("measured", false),
     ];
     link("gather", include_str!("shaders/gather.wesl"), &modules, &features)
@@ -73,19 +77,25 @@ struct View {
 
 /// What all specular lobes of a picture have.
 pub(crate) struct Materials {
-    /// Their widths, in order.
-    alphas: Vec<f32>,
+    /// Their shapes, in order.
+    shapes: Vec<LobeShape>,
     colored: bool,
+    exact_fresnel: bool,
 }
 
 impl Materials {
     pub(crate) fn new(brdfs: impl Iterator<Item = Brdf>) -> Self {
         let specular: Vec<_> = brdfs.filter(Brdf::has_specular).collect();
-        let mut alphas: Vec<_> = specular.iter().map(|brdf| brdf.alpha).collect();
-        alphas.sort_by(f32::total_cmp);
-        alphas.dedup();
+        let mut shapes: Vec<_> = specular.iter().copied().map(LobeShape::from).collect();
+        shapes.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
+        shapes.dedup();
         let grey = |brdf: &Brdf| brdf.f0 == Vec3::splat(brdf.f0.x);
-        Self { alphas, colored: !specular.iter().all(grey) }
+        let exact = |brdf: &Brdf| matches!(brdf.lobe, Lobe::Dielectric { .. });
+        Self {
+            shapes,
+            colored: !specular.iter().all(grey),
+            exact_fresnel: specular.iter().any(exact),
+        }
     }
 
     pub(crate) fn of_scene(scene: &Scene) -> Self {
@@ -97,36 +107,39 @@ impl Materials {
 
     /// First element in the table of emissions of the row for a light.
     fn emission_row(&self, sphere: &SphericalLight, bands: usize) -> u32 {
-        let table = self.alphas.partition_point(|&alpha| alpha < sphere.light.brdf.alpha);
+        let shape = LobeShape::from(sphere.light.brdf);
+        // Rounding keeps the order.
+        let table = self.shapes.partition_point(|&other| rounded_shape(other) < shape);
         let row = table * emission::ANGLES + emission::degrees(&sphere.light);
         (row * emission::terms(bands).count()) as u32
     }
 
     fn lobes(&self, settings: &Settings) -> [Lobes; 2] {
-        let receivers = !self.alphas.is_empty();
+        let receivers = !self.shapes.is_empty();
         let lights = receivers && settings.emission_bands != 1;
-        [false, lights].map(|lights| Lobes { receivers, lights, colored: self.colored })
+        let Self { colored, exact_fresnel, .. } = *self;
+        [false, lights].map(|lights| Lobes { receivers, lights, colored, exact_fresnel })
     }
 
     /// As bindings 5 to 7.
     fn tables(&self, gpu: &Gpu, settings: &Settings) -> Result<Vec<Buffer>, Error> {
-        if self.alphas.is_empty() {
+        if self.shapes.is_empty() {
             return Ok(Vec::new());
         }
-        let receivers = self.alphas.iter().flat_map(|&alpha| {
+        let receivers = self.shapes.iter().flat_map(|&shape| {
             let Settings { bands, damping, .. } = *settings;
             match settings.form {
-                Form::Full => single(LobeTable::of(alpha, bands, damping).values()),
-                Form::Zonal => single(ZonalTable::of(alpha, bands, damping).values()),
+                Form::Full => single(LobeTable::of(shape, bands, damping).values()),
+                Form::Zonal => single(ZonalTable::of(shape, bands, damping).values()),
             }
         });
         let receivers: Vec<_> = receivers.collect();
         let mut tables =
-            vec![gpu.storage("alphas", &self.alphas)?, gpu.storage("lobes", &receivers)?];
+            vec![gpu.storage("shapes", &self.shapes)?, gpu.storage("lobes", &receivers)?];
         let bands = settings.emission_bands;
         if bands > 1 {
-            let rows = |&alpha: &f32| single(EmissionTable::of(alpha, bands).values());
-            let rows: Vec<_> = self.alphas.iter().flat_map(rows).collect();
+            let rows = |&shape| single(EmissionTable::of(rounded_shape(shape), bands).values());
+            let rows: Vec<_> = self.shapes.iter().flat_map(rows).collect();
             tables.push(gpu.storage("emissions", &rows)?);
         }
         Ok(tables)

@@ -2,12 +2,15 @@
 
 use std::f64::consts::PI;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use manylights_harmonics::quadrature::gauss_legendre;
-use manylights_scene::{Brdf, DBrdf};
+use manylights_scene::DBrdf;
+
+use crate::LobeShape;
 
 /// Half vectors about the normal z with weights D(h) n·h dω.
 pub(crate) struct HalfVectors {
+    shape: LobeShape,
     ggx: DBrdf,
     nodes: Vec<(DVec3, f64)>,
 }
@@ -15,7 +18,9 @@ pub(crate) struct HalfVectors {
 impl HalfVectors {
     /// Rings in the polar angle, sectors in half a turn. With w² = 1 − u of the distribution's inverse,
     /// tan² θ = α² (1 − w²)/w², du = 2w dw, so the integrand over w is smooth for every α.
-    pub(crate) fn new(alpha: f64, [rings, sectors]: [usize; 2]) -> Self {
+    pub(crate) fn new(shape: LobeShape, [rings, sectors]: [usize; 2]) -> Self {
+        let ggx = DBrdf::from(shape.brdf());
+        let alpha = ggx.alpha;
         let ring = |(node, weight): (f64, f64)| {
             let w: f64 = 0.5 + 0.5 * node;
             let sin = alpha * (1.0 - w * w).sqrt();
@@ -28,7 +33,7 @@ impl HalfVectors {
             })
         };
         let nodes = gauss_legendre(rings).into_iter().flat_map(ring).collect();
-        Self { ggx: DBrdf { alpha, ..Brdf::lambert(Vec3::ZERO).into() }, nodes }
+        Self { shape, ggx, nodes }
     }
 
     /// Directions l above the horizon with weights for the lobe without its cosine, dl = 4 v·h dh: one
@@ -41,8 +46,7 @@ impl HalfVectors {
             visible.then(|| {
                 let visibility = self.ggx.visibility(view.z, direction.z);
                 let flux = weight * visibility * 4.0 * along / h.z;
-                let grazing = (1.0 - along).powi(5);
-                (direction, [flux * (1.0 - grazing), flux * grazing])
+                (direction, self.shape.fresnel(along).map(|fresnel| flux * fresnel))
             })
         })
     }

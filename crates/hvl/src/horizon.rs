@@ -6,8 +6,9 @@ use manylights_harmonics::zonal::Cap;
 
 use crate::Horizon;
 
-/// Below this sine a cap is a planar disc: as in the shader.
-const PLANAR: f64 = 0.02;
+/// Below this sine a cap is a planar disc, sin² a of it wrong; above, the closed form keeps 3e-7 of
+/// sin a. The shader has a form without a switch.
+const PLANAR: f64 = 1e-3;
 
 /// H, the share of a cap above the horizon; `cosine` between the cap's axis and the normal.
 pub fn above(horizon: Horizon, cosine: f64, cap: Cap<f64>) -> f64 {

@@ -8,7 +8,7 @@
 //! with c_l the scales of the cap that the sphere covers (thesis 3.11, in the form that keeps its digits
 //! for small caps), F' the expansion of the cosine-weighted reflectance f_x(v, ·) ⟨n_x·⟩ in `bands`
 //! bands, and H the share of the sphere above the horizon (5.5–5.8). Seen from inside (d < r) the
-//! sphere covers the hemisphere about ω_j.
+//! sphere covers the hemisphere about ω_j. At the centre itself ω_j has no limit, and the value jumps.
 //!
 //! # What it converges to
 //! For `scale` → 0 to virtual point lights whose reflectance is cut at `bands`. For `bands` → ∞ to the
@@ -21,6 +21,8 @@
 //! - Lambertian: a zonal function, n terms; odd bands but l = 1 vanish ([`diffuse`]).
 //! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`]); twice where
 //!   some f0 has a colour. One table serves all materials of one roughness, textured ones included.
+//!   With the exact Fresnel term of a dielectric there is one a roughness and index.
+//! - No measured reflectance.
 //! - A window damps the bands of both where it is asked for; it is part of the tables.
 //!
 //! # Zonal form (5.2.7)
@@ -32,10 +34,9 @@
 //!
 //! # Emission (5.6)
 //! On Lambertian surfaces one colour: nothing of the light depends on the pixel but the cosine. On
-//! glossy ones the scene's reflectance itself by default (`emission_bands` = 0): it is exact, and on `trio`
-//! faster than two bands of an expansion ([`emission`]), while even nine change the picture by half of
-//! its RMS; band 0 alone makes the light as cheap as a Lambertian one. `examples/hvl_emission.rs` measures
-//! both.
+//! glossy ones the scene's reflectance itself by default (`emission_bands` = 0), which is exact
+//! and takes less time than three bands of an expansion; or an expansion ([`emission`]), whose band 0
+//! alone makes the light as cheap as a Lambertian one. See `examples/hvl_emission.rs` for what each costs.
 //!
 //! # Cost
 //! A pixel's expansion is fetched once a batch, not once a light. `examples/virtual_light_throughput.rs` prints what a
@@ -44,6 +45,8 @@
 //!
 //! # Deviations from the papers
 //! - 5.8: the lower clamp is π/2 − a; as printed it never acts.
+//! - The expansion of a light's emission is scaled to the flux of the lobe itself ([`emission`]): as
+//!   projected, one band emits half to 23 times of it.
 //! - Φ_j is the flux of the light's cell, not power/count; the emitting cosine is that of the geometric
 //!   normal (see [`manylights_gpu::VirtualLight::flux`]).
 //! - 5.2.7: axis, cosine and Lambertian lobe, see [`zonal`] and above.
@@ -57,10 +60,11 @@ mod gather;
 mod half_vectors;
 pub mod horizon;
 mod light_record;
+mod lobe_shape;
+mod lobe_wgsl;
 pub mod lobes;
 pub mod oracle;
 mod params;
-mod receiver_lobe;
 mod spherical_light;
 pub mod zonal;
 
@@ -76,12 +80,13 @@ use gather::{CAPACITY, Materials};
 
 pub use gather::{Lobes, linked_shader};
 pub use light_record::rounded;
+pub use lobe_shape::LobeShape;
 pub use manylights_gpu::SphericalLight;
 pub use params::{Damping, Form, Horizon, MAX_BANDS, Settings};
 pub use spherical_light::spherical_lights;
 
-/// Products of coefficients in one submission, light by pixel: about a second on a slow processor,
-/// far below any watchdog on a fast one.
+/// Products of coefficients in one submission, light by pixel, where a batch has fewer; a batch is never
+/// cut. About a second on a slow processor, far below any watchdog on a fast one.
 const PRODUCTS_A_STEP: u64 = 1 << 31;
 
 /// The method.
@@ -122,10 +127,8 @@ impl Method for Hvl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        if !Reflectances::of_scene(frame.scene).is_plain() {
-            return Err(Error::Declined(
-                "knows glTF's materials alone; this scene has others".into(),
-            ));
+        if !Reflectances::of_scene(frame.scene).measured.is_empty() {
+            return Err(Error::Declined("knows no measured materials; this scene has some".into()));
         }
         let (on_gpu, shadows) = many_light_frame(frame)?;
         let settings = Settings::new(parameters);

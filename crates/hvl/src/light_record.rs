@@ -5,10 +5,10 @@ use glam::{Vec2, Vec3};
 use manylights_gpu::SphericalLight;
 use manylights_scene::{Brdf, Lobe};
 
-use crate::emission;
+use crate::{LobeShape, emission};
 
 /// The sphere with its light as [`GlossyLight`] holds it, where it lies on a glossy surface: directions
-/// to 6.5e-5, reflectances to 8e-6.
+/// to 6.5e-5, reflectances and the inverse of an index of refraction to 8e-6.
 pub fn rounded(sphere: &SphericalLight) -> SphericalLight {
     let mut light = sphere.light;
     if light.brdf.has_specular() {
@@ -48,7 +48,7 @@ pub(crate) struct GlossyLight {
     directions: [u32; 3],
     /// First element of its row in the table of emissions, where emission is expanded.
     row: u32,
-    /// diffuse, f0, f90 in 16 bits each: see [`pack_reflectance`].
+    /// diffuse, f0, f90, 1/index in 16 bits each: see [`pack_reflectance`].
     reflectance: [u32; 4],
 }
 
@@ -82,6 +82,12 @@ impl GlossyLight {
     }
 }
 
+/// The shape of a light on a surface of this shape.
+pub(crate) fn rounded_shape(shape: LobeShape) -> LobeShape {
+    let brdf = shape.brdf();
+    unpack_reflectance(pack_reflectance(&brdf), brdf.alpha).into()
+}
+
 /// Octahedral coordinates (Meyer et al. 2010) in `unpack2x16snorm`.
 fn pack_direction(unit: Vec3) -> u32 {
     let sum = unit.abs().element_sum();
@@ -100,23 +106,27 @@ fn unpack_direction(packed: u32) -> Vec3 {
     Vec3::new(x - fold.copysign(x), y - fold.copysign(y), z).normalize()
 }
 
-/// Seven values of 0 … 1 in `unpack2x16unorm`.
+/// Eight values of 0 … 1 in `unpack2x16unorm`; the last one is 1/index of an exact Fresnel term, 0 for
+/// Schlick's.
 fn pack_reflectance(brdf: &Brdf) -> [u32; 4] {
     let [d, f] = [brdf.diffuse, brdf.f0];
+    let inverse = match brdf.lobe {
+        Lobe::Dielectric { index } => 1.0 / index,
+        Lobe::Schlick { .. } | Lobe::Measured(_) => 0.0,
+    };
     let bits = |value: f32| (value.clamp(0.0, 1.0) * 65535.0).round() as u32;
-    [[d.x, d.y], [d.z, f.x], [f.y, f.z], [brdf.lobe.f90(), 0.0]]
+    [[d.x, d.y], [d.z, f.x], [f.y, f.z], [brdf.lobe.f90(), inverse]]
         .map(|[a, b]| bits(a) | bits(b) << 16)
 }
 
 fn unpack_reflectance(packed: [u32; 4], alpha: f32) -> Brdf {
     let value = |bits: u32| bits as f32 / 65535.0;
     let [a, b, c, d] = packed.map(|pair| [value(pair & 0xffff), value(pair >> 16)]);
-    Brdf {
-        diffuse: Vec3::new(a[0], a[1], b[0]),
-        f0: Vec3::new(b[1], c[0], c[1]),
-        lobe: Lobe::Schlick { f90: d[0] },
-        alpha,
-    }
+    let lobe = match d {
+        [f90, 0.0] => Lobe::Schlick { f90 },
+        [_, inverse] => Lobe::Dielectric { index: 1.0 / inverse },
+    };
+    Brdf { diffuse: Vec3::new(a[0], a[1], b[0]), f0: Vec3::new(b[1], c[0], c[1]), lobe, alpha }
 }
 
 const _: () = assert!(size_of::<LambertLight>() == 48 && size_of::<GlossyLight>() == 64);

@@ -2,7 +2,8 @@
 //!
 //! Schlick's Fresnel term is linear in f0 and f90, so one material's cosine-weighted lobe is
 //! f0 A + f90 B with two scalar lobes A and B that depend on α and the view alone: one table serves
-//! all colours, textured ones included.
+//! all colours, textured ones included. With the exact term of a dielectric it is f0 A, where A depends
+//! on the index too, and B = 0.
 
 use std::sync::Arc;
 
@@ -10,6 +11,7 @@ use glam::DVec3;
 use manylights_harmonics::{Basis, count, even_count, even_index, index};
 use rayon::prelude::*;
 
+use crate::LobeShape;
 use crate::cache::Cache;
 use crate::half_vectors::HalfVectors;
 use crate::params::Damping;
@@ -19,9 +21,13 @@ pub const ANGLES: usize = 91;
 
 /// Nodes of the quadrature in the polar angle and in the half turn of the half vector. Tested
 /// against twice as many, and against a quadrature over the sphere.
-const NODES: [usize; 2] = [64, 96];
+pub const NODES: [usize; 2] = [96, 96];
 
-/// The lobes of one α.
+/// Reflectances [f0, f90] under which no lobe of a damped table rings: without the Fresnel term, and of
+/// a dielectric, most of which is at grazing angles.
+const DAMPED: [[f64; 2]; 2] = [[1.0, 1.0], [0.04, 1.0]];
+
+/// The lobes of one shape.
 #[derive(Clone, Debug)]
 pub struct LobeTable {
     bands: usize,
@@ -30,34 +36,38 @@ pub struct LobeTable {
 }
 
 impl LobeTable {
-    /// The table for a GGX width, a number of bands and a window; made once in a process.
-    pub fn of(alpha: f32, bands: usize, damping: Damping) -> Arc<Self> {
+    /// The table for a shape, a number of bands and a window; made once in a process.
+    pub fn of(shape: impl Into<LobeShape>, bands: usize, damping: Damping) -> Arc<Self> {
+        let shape = shape.into();
         static PLAIN: Cache<LobeTable> = Cache::new();
-        static DAMPED: Cache<LobeTable> = Cache::new();
-        let plain = PLAIN
-            .get((alpha, bands, Damping::None), || Self::integrate(alpha.into(), bands, NODES));
+        static WINDOWED: Cache<LobeTable> = Cache::new();
+        let plain =
+            PLAIN.get((shape, bands, Damping::None), || Self::integrate(shape, bands, NODES));
         if damping == Damping::None {
             return plain;
         }
-        DAMPED.get((alpha, bands, damping), || plain.damped(damping))
+        WINDOWED.get((shape, bands, damping), || plain.damped(damping))
     }
 
     /// By quadrature; `nodes` in the polar angle of the half vector, and in half a turn.
-    pub fn integrate(alpha: f64, bands: usize, nodes: [usize; 2]) -> Self {
-        let (basis, lobe) = (Basis::new(bands), HalfVectors::new(alpha, nodes));
+    pub fn integrate(shape: impl Into<LobeShape>, bands: usize, nodes: [usize; 2]) -> Self {
+        let (basis, lobe) = (Basis::new(bands), HalfVectors::new(shape.into(), nodes));
         let row = |degrees: usize| project(&basis, &lobe, (degrees as f64).to_radians());
         let values = (0..ANGLES).into_par_iter().flat_map_iter(row).collect();
         Self { bands, values }
     }
 
-    /// The same under a window, found for each row on A + B: the lobe without its Fresnel term.
+    /// The same under a window, for each row the strongest of those for [`DAMPED`].
     fn damped(&self, damping: Damping) -> Self {
         let rows = self.values.par_chunks(even_count(self.bands));
         let damp = |row: &[[f64; 2]]| {
-            let sums: Vec<_> = row.iter().map(|[a, b]| a + b).collect();
-            let weights = damping.of_lobe(self.bands, &sums);
+            let weights = DAMPED.map(|[f0, f90]| {
+                let lobe: Vec<_> = row.iter().map(|[a, b]| f0 * a + f90 * b).collect();
+                damping.of_lobe(self.bands, &lobe)
+            });
             let bands = (0..self.bands).flat_map(|l| std::iter::repeat_n(l, l + 1));
-            let values = row.iter().zip(bands).map(|(pair, l)| pair.map(|v| v * weights[l]));
+            let weight = |l: usize| weights.iter().map(|weights| weights[l]).fold(1.0, f64::min);
+            let values = row.iter().zip(bands).map(|(pair, l)| pair.map(|v| v * weight(l)));
             values.collect::<Vec<_>>()
         };
         Self { bands: self.bands, values: rows.flat_map_iter(damp).collect() }
@@ -73,7 +83,9 @@ impl LobeTable {
         &self.values
     }
 
-    /// The coefficients for a view at this angle from the normal, linear between whole degrees.
+    /// The coefficients for a view at this angle from the normal, linear between whole degrees. Near the
+    /// horizon a smooth lobe changes faster than that: relative error of 10 bands at 89.5° 5.7e-2 for
+    /// α = 0.01; for α = 9e-4 1.9e-2, and 9.3e-2 at 89.9°. Below 88.5° it is at most 1e-2.
     pub fn at(&self, radians: f64) -> Vec<[f64; 2]> {
         interpolated(&self.values, radians)
     }

@@ -129,13 +129,13 @@ impl Receiver {
                 .collect()
         };
         let specular = if brdf.has_specular() {
-            let alpha = surface.alpha;
+            let shape = surface.brdf();
             match settings.form {
                 Form::Full => {
-                    Specular::Full(colors(LobeTable::of(alpha, bands, damping).at(angle)))
+                    Specular::Full(colors(LobeTable::of(shape, bands, damping).at(angle)))
                 }
                 Form::Zonal => {
-                    let ([x, z], row) = ZonalTable::of(alpha, bands, damping).at(angle);
+                    let ([x, z], row) = ZonalTable::of(shape, bands, damping).at(angle);
                     Specular::Zonal(x * tangent + z * normal, colors(row))
                 }
             }

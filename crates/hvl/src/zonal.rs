@@ -10,14 +10,14 @@ use std::sync::Arc;
 use manylights_harmonics::{Basis, count, even_count, even_index, index};
 use rayon::prelude::*;
 
-use crate::Damping;
 use crate::cache::Cache;
 use crate::lobes::{ANGLES, LobeTable, interpolated};
+use crate::{Damping, LobeShape};
 
 /// Golden sections of the axis: 0.618³² of two degrees is 7e-9 rad, and a maximum is flat.
 const SECTIONS: usize = 32;
 
-/// The circular lobes of one α.
+/// The circular lobes of one shape.
 #[derive(Clone, Debug)]
 pub struct ZonalTable {
     /// For each angle of the view 1 + bands pairs: x and z of the axis, then (2l + 1)/4π times the
@@ -27,9 +27,10 @@ pub struct ZonalTable {
 
 impl ZonalTable {
     /// The nearest circular lobes to [`LobeTable::of`]; made once in a process.
-    pub fn of(alpha: f32, bands: usize, damping: Damping) -> Arc<Self> {
+    pub fn of(shape: impl Into<LobeShape>, bands: usize, damping: Damping) -> Arc<Self> {
+        let shape = shape.into();
         static TABLES: Cache<ZonalTable> = Cache::new();
-        TABLES.get((alpha, bands, damping), || Self::new(&LobeTable::of(alpha, bands, damping)))
+        TABLES.get((shape, bands, damping), || Self::new(&LobeTable::of(shape, bands, damping)))
     }
 
     fn new(lobes: &LobeTable) -> Self {

@@ -6,8 +6,9 @@ use common::{FORMS, GPU, SETTINGS};
 use manylights_gpu::Binding;
 use manylights_hvl::{Form, Horizon, Lobes, Settings, linked_shader};
 
-const LAMBERT: Lobes = Lobes { receivers: false, lights: false, colored: false };
-const GLOSSY: Lobes = Lobes { receivers: true, lights: true, colored: true };
+const LAMBERT: Lobes =
+    Lobes { receivers: false, lights: false, colored: false, exact_fresnel: false };
+const GLOSSY: Lobes = Lobes { receivers: true, lights: true, colored: true, exact_fresnel: false };
 
 #[test]
 fn a_lambertian_scene_links_no_ggx() {
@@ -15,7 +16,7 @@ fn a_lambertian_scene_links_no_ggx() {
         for horizon in [Horizon::Smooth, Horizon::Exact] {
             let settings = Settings { form, horizon, emission_bands: 3, ..SETTINGS };
             let wgsl = linked_shader(LAMBERT, false, &settings).expect("links");
-            for word in ["alphas", "glossy", "schlick", "specular", "smith", "lobe_dot", "emission"]
+            for word in ["shapes", "glossy", "schlick", "specular", "smith", "lobe_dot", "emission"]
             {
                 assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
             }
@@ -24,6 +25,7 @@ fn a_lambertian_scene_links_no_ggx() {
             // The Lambertian lobe of the zonal form is in closed form.
             assert_eq!(wgsl.contains("cap_scales"), form == Form::Full);
             let glossy = linked_shader(GLOSSY, true, &settings).expect("links");
+            assert!(!glossy.contains("relative_fresnel"));
             assert!(glossy.contains("lobe_dot") && glossy.contains("emission_lobe"));
             assert!(glossy.contains("sh_evaluate_even") && glossy.contains("is_visible"));
         }
@@ -41,11 +43,13 @@ fn every_permutation_is_valid() {
         Lobes { lights: false, ..GLOSSY },
         Lobes { colored: false, ..GLOSSY },
         GLOSSY,
+        Lobes { exact_fresnel: true, ..GLOSSY },
     ];
     for form in FORMS {
         for lobes in lobes {
             for (bands, emission_bands) in [(1, 0), (2, 2), (5, 3), (20, 0)] {
-                let settings = Settings { form, bands, emission_bands, ..SETTINGS };
+                let horizon = if bands % 2 == 0 { Horizon::Smooth } else { Horizon::Exact };
+                let settings = Settings { form, bands, emission_bands, horizon, ..SETTINGS };
                 for traced in [false, true] {
                     let wgsl = linked_shader(lobes, traced, &settings).expect("links");
                     GPU.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");

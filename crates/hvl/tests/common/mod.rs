@@ -84,6 +84,12 @@ pub(crate) fn metal(roughness: f32) -> Brdf {
     Brdf { diffuse: Vec3::ZERO, f0: Vec3::new(0.9, 0.7, 0.4), ..glossy(roughness) }
 }
 
+/// The exact Fresnel term, as fitted materials have it.
+pub(crate) fn dielectric(roughness: f32) -> Brdf {
+    let f0 = Vec3::new(0.05, 0.04, 0.03);
+    Brdf { f0, lobe: Lobe::Dielectric { index: 1.43 }, ..glossy(roughness) }
+}
+
 pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
     let Brdf { diffuse, f0, lobe, alpha } = brdf;
     let f90 = lobe.slot();

@@ -2,7 +2,9 @@
 
 mod common;
 
-use common::{FORMS, GPU, SETTINGS, glossy, light, metal, oblique, render, spiral, surface};
+use common::{
+    FORMS, GPU, SETTINGS, dielectric, glossy, light, metal, oblique, render, spiral, surface,
+};
 use glam::Vec3;
 use manylights_gpu::{RadiusRule, SurfaceRecord};
 use manylights_harmonics::window::Window;
@@ -46,6 +48,8 @@ fn every_form_on_every_pair_of_lobes() {
         ("Lambert by Lambert", lambert, lambert),
         ("glossy by Lambert", glossy(0.4), lambert),
         ("metal by glossy", metal(0.3), glossy(0.5)),
+        ("glossy by dielectric", glossy(0.4), dielectric(0.6)),
+        ("dielectric by metal", dielectric(0.4), metal(0.5)),
     ];
     for (name, receiver, emitter) in pairs {
         let sphere = light(Vec3::ZERO, oblique(Vec3::Y), emitter, 0.4);
@@ -61,6 +65,53 @@ fn every_form_on_every_pair_of_lobes() {
                     assert!(worst < 3e-6, "{name}, {settings:?}: {worst:e}");
                 }
             }
+        }
+    }
+}
+
+/// As many bands as there may be, a lobe narrower than they show, points and spheres that swallow the
+/// receivers.
+#[test]
+fn the_most_bands() {
+    for form in FORMS {
+        for emission_bands in [0, 5] {
+            let settings = Settings { bands: 20, form, emission_bands, ..SETTINGS };
+            for radius in [0.0, 0.02, 3.0] {
+                let sphere = light(Vec3::ZERO, oblique(Vec3::Y), metal(0.1), radius);
+                let worst = worst(metal(0.1), &sphere, &settings);
+                println!("{form:?}, {emission_bands}, {radius}: {worst:.1e}");
+                assert!(worst < 3e-5, "{settings:?} {radius}: {worst:e}");
+            }
+        }
+    }
+}
+
+/// Spheres that the horizon cuts, however small: the closed form takes a difference that vanishes as
+/// their third power.
+#[test]
+fn small_spheres_that_the_horizon_cuts() {
+    let settings = Settings { form: Form::Zonal, ..SETTINGS };
+    let lambert = Brdf::lambert(Vec3::ONE);
+    let camera = oblique(Vec3::new(0.3, 7.0, 0.2));
+    for radius in [1e-3, 0.02, 0.0201, 0.05, 0.3, 0.6] {
+        let sphere = light(Vec3::ZERO, oblique(Vec3::Y), lambert, radius);
+        // One metre above the light; the cosine to it in −0.95 to 0.95 radii, the middle one 0.
+        let place = oblique(Vec3::Y);
+        let surfaces: Vec<_> = (-19..=19_i8)
+            .map(|step| {
+                let cosine = 0.05 * f32::from(step) * radius;
+                let normal = Vec3::new((1.0 - cosine * cosine).sqrt(), -cosine, 0.0);
+                surface(place, oblique(normal), lambert)
+            })
+            .collect();
+        let pixels = gather(&GPU, &surfaces, camera, &[sphere], &settings).expect("a gather");
+        let truth = |surface| oracle::radiance(surface, camera.as_dvec3(), &[sphere], &settings).x;
+        let middle = truth(&surfaces[19]);
+        for (surface, pixel) in surfaces.iter().zip(pixels) {
+            let error = (f64::from(pixel[0]) - truth(surface)).abs() / middle;
+            // A rounding of the cosine is 6e-8/radius of the sphere.
+            let bound = 4e-6 + 3e-7 / f64::from(radius);
+            assert!(error < bound, "radius {radius}: {error:e} of {bound:e}");
         }
     }
 }
@@ -92,7 +143,7 @@ fn difference(scene: &str, texts: &[(&str, &str)], settings: &Settings) -> f64 {
 
 #[test]
 fn pictures() {
-    for scene in ["cornell", "cornell-glossy", "atrium", "trio"] {
+    for scene in ["cornell", "cornell-glossy", "atrium", "trio", "../../scenes/trio-merl.toml"] {
         assert!(
             difference(scene, &[("lights", "64")], &Settings { lights: 64, ..SETTINGS }) < 1e-5
         );

@@ -54,6 +54,25 @@ fn the_smooth_share_is_near_the_exact_one() {
     }
 }
 
+/// Step of 1/index: 1/65535, of index: its square times as large.
+#[test]
+fn indices_of_refraction_are_rounded_once() {
+    for step in 1..1500_u16 {
+        let index = 1.0 + f32::from(step) * 0.01;
+        let brdf = Brdf { lobe: Lobe::Dielectric { index }, ..Brdf::lambert(Vec3::ONE) };
+        let (position, incoming, flux) = (Vec3::ZERO, Vec3::Z, Vec3::ONE);
+        let normals = [Vec3::Z; 2];
+        let [geometric_normal, normal] = normals;
+        let light = VirtualLight { position, geometric_normal, normal, incoming, flux, brdf };
+        let once = rounded(&SphericalLight { light, radius: 0.1 });
+        assert_eq!(rounded(&once).light.brdf, once.light.brdf);
+        let Lobe::Dielectric { index: found } = once.light.brdf.lobe else {
+            panic!("{index}: {:?}", once.light.brdf);
+        };
+        assert!((found - index).abs() < 8e-6 * index * index, "{index} {found}");
+    }
+}
+
 #[test]
 fn rounding_is_small_and_happens_once() {
     let brdf = Brdf {
