@@ -6,7 +6,7 @@ use common::{
     FORMS, GPU, SETTINGS, dielectric, glossy, light, metal, oblique, render, spiral, surface,
 };
 use glam::Vec3;
-use manylights_gpu::{Center, GpuFrame, RadiusRule, Shadows};
+use manylights_gpu::{Center, GpuFrame, RadiusRule, Shadows, SurfaceRecord};
 use manylights_harmonics::window::Window;
 use manylights_hvl::{Damping, Form, Horizon, Settings, SphericalLight, gather, oracle};
 use manylights_method::Visibility;
