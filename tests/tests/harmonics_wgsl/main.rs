@@ -8,7 +8,7 @@ use adapter::{
 use manylights_harmonics::wgsl::Function;
 use manylights_harmonics::{Basis, MAX_BANDS, count, even_count, index};
 
-/// The bands of the methods. `examples/harmonics_stability.rs` goes to 12; software adapters take a
+/// The bands of the methods. `examples/harmonics_wgsl_stability.rs` goes to 12; software adapters take a
 /// minute to compile 20, which the crate's own tests run on the CPU instead.
 const BANDS: [usize; 7] = [1, 2, 3, 4, 5, 6, 9];
 

@@ -1,6 +1,6 @@
 //! The generated WGSL on the adapter at hand against f64, written to
 //! `results/stability/harmonics-wgsl.md`. Run with
-//! `cargo run -p manylights-tests --example harmonics_stability`.
+//! `cargo run -p manylights-tests --example harmonics_wgsl_stability`.
 
 #[path = "../tests/harmonics_wgsl/adapter.rs"]
 mod adapter;
@@ -13,7 +13,7 @@ fn main() {
     let report = GPU.report();
     let mut table = format!(
         "# Harmonics in WGSL: hard cases\n\n\
-         `cargo run -p manylights-tests --example harmonics_stability` on {} ({} {}).\n\n\
+         `cargo run -p manylights-tests --example harmonics_wgsl_stability` on {} ({} {}).\n\n\
          Worst error in f32 against f64: values and gradients relative to the largest of their band \
          in that direction, at poles, axes, around them and between; cap scales relative to c_0, r/d \
          from 1 to 1e-6.\n\n\
