@@ -22,7 +22,7 @@ use crate::{Damping, LobeShape, diffuse};
 pub const ANGLES: usize = 90;
 
 /// More than for the receivers' lobes: without the cosine the lobe ends at the horizon in a step.
-const NODES: [usize; 2] = [192, 192];
+const NODES: [usize; 2] = [384, 192];
 
 /// The lobes of one shape.
 #[derive(Debug)]
