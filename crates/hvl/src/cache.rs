@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use crate::{Damping, LobeShape};
 
 /// Shape as bits, bands, window.
-type Key = ([u32; 2], usize, Damping);
+type Key = ([u32; 3], usize, Damping);
 
 /// A list: pictures have few materials.
 pub(crate) struct Cache<T>(Mutex<Vec<(Key, Arc<T>)>>);

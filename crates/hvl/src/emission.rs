@@ -11,11 +11,11 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3};
 use manylights_gpu::VirtualLight;
 use manylights_harmonics::{Basis, clamped_cosine, count, index};
-use manylights_scene::DBrdf;
+use manylights_scene::{DBrdf, Lobe};
 use rayon::prelude::*;
 
 use crate::cache::Cache;
-use crate::half_vectors::HalfVectors;
+use crate::lobe_quadrature::{Fixed, LobeQuadrature};
 use crate::{Damping, LobeShape, diffuse};
 
 /// Angles between primary light and normal: 0°, 1°, … 89°. At 90° the reflectance has no bound.
@@ -45,7 +45,7 @@ impl EmissionTable {
     }
 
     fn integrate(shape: LobeShape, bands: usize) -> Self {
-        let (basis, lobe) = (Basis::new(bands), HalfVectors::new(shape, NODES));
+        let (basis, lobe) = (Basis::new(bands), LobeQuadrature::new(shape, NODES, Fixed::Light));
         let row = |degrees: usize| project(&basis, &lobe, (degrees as f64).to_radians());
         Self { values: (0..ANGLES).into_par_iter().flat_map_iter(row).collect() }
     }
@@ -64,7 +64,7 @@ impl EmissionTable {
 /// ∫ f(v, l) Y_lm(l) dl over the sphere, f mirrored in the horizon, times what keeps the flux of A + B:
 /// a few bands of a lobe near the horizon put most of it where the cosine is large, up to 23 times its
 /// flux, and those of one about the normal half of it.
-fn project(basis: &Basis<f64>, lobe: &HalfVectors, view: f64) -> Vec<[f64; 2]> {
+fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 2]> {
     let bands = basis.bands();
     let terms: Vec<_> = terms(bands).collect();
     let mut sums = vec![[0.0; 2]; terms.len()];
@@ -84,7 +84,9 @@ fn project(basis: &Basis<f64>, lobe: &HalfVectors, view: f64) -> Vec<[f64; 2]> {
     let zonal = sums.iter().zip(&terms).filter(|(_, (_, m))| *m == 0);
     let expanded: f64 =
         zonal.map(|([a, b], &(l, _))| (a + b) * cosine[l] * diffuse::addition(l).sqrt()).sum();
-    sums.into_iter().map(|pair| pair.map(|value| value * (flux / expanded))).collect()
+    // A measurement may have a black channel.
+    let scale = if flux > 0.0 { flux / expanded } else { 1.0 };
+    sums.into_iter().map(|pair| pair.map(|value| value * scale)).collect()
 }
 
 /// The row for a light: its angle in whole degrees.
@@ -107,12 +109,19 @@ pub fn reflectance(light: &VirtualLight, toward: DVec3, bands: usize) -> DVec3 {
     let local = [tangent, normal.cross(tangent), normal].map(|axis| axis.dot(toward));
     let mut harmonics = vec![0.0; count(bands)];
     Basis::new(bands).evaluate(local, &mut harmonics);
-    let table = EmissionTable::of(light.brdf, bands);
-    let (mut a, mut b) = (0.0, 0.0);
-    for (&[f0, f90], (l, m)) in table.row(degrees(light)).iter().zip(terms(bands)) {
-        a += f0 * harmonics[index(l, m as isize)];
-        b += f90 * harmonics[index(l, m as isize)];
+    let lobe = |shape| {
+        let table = EmissionTable::of(shape, bands);
+        let row = table.row(degrees(light)).iter().zip(terms(bands));
+        row.fold([0.0; 2], |[a, b], (&[f0, f90], (l, m))| {
+            let value = harmonics[index(l, m as isize)];
+            [a + f0 * value, b + f90 * value]
+        })
+    };
+    let shape = LobeShape::from(light.brdf);
+    if matches!(brdf.lobe, Lobe::Measured(_)) {
+        return shape.channels().map(|shape| lobe(shape)[0]).into();
     }
+    let [a, b] = lobe(shape);
     let mirrored = diffuse::mirrored_grazing(bands).into_iter().enumerate();
     let grazing: f64 = mirrored.map(|(l, value)| value * harmonics[index(l, 0)]).sum();
     let [entering, fall] = diffuse::transmission(&brdf);
@@ -125,10 +134,12 @@ pub fn reflectance(light: &VirtualLight, toward: DVec3, bands: usize) -> DVec3 {
 /// A module with, for `bands` bands:
 /// - `emission_lobe(y: array<f32, bands (bands + 1)/2>, row: u32) -> vec2f`: A and B of a row of
 ///   binding 7 whose first element is `row`;
-/// - `emission_grazing(y) -> f32`: (1 − |n·l|)⁵.
+/// - `emission_grazing(y) -> f32`: (1 − |n·l|)⁵;
+/// - `EMISSION_TABLE`: elements a table.
 pub(crate) fn module(bands: usize) -> String {
     let terms: Vec<_> = terms(bands).collect();
     let size = manylights_harmonics::even_count(bands);
+    let table = ANGLES * terms.len();
     let position = |&(l, m): &(usize, usize)| manylights_harmonics::even_index(l, m);
     let lobe = terms.iter().zip(0..).map(|(term, offset): (_, usize)| {
         format!("y[{}] * emission_table[row + {offset}u]", position(term))
@@ -141,6 +152,7 @@ pub(crate) fn module(bands: usize) -> String {
     let [lobe, grazing] = [lobe, grazing].map(|sum| sum.join("\n        + "));
     format!(
         "@group(0) @binding(7) var<storage, read> emission_table: array<vec2f>;\n\n\
+         const EMISSION_TABLE = {table}u;\n\n\
          fn emission_lobe(y: array<f32, {size}>, row: u32) -> vec2f {{\n    return {lobe};\n}}\n\n\
          fn emission_grazing(y: array<f32, {size}>) -> f32 {{\n    return {grazing};\n}}\n"
     )

@@ -33,6 +33,8 @@ pub struct Lobes {
     pub colored: bool,
     /// Some specular lobe has the exact Fresnel term.
     pub exact_fresnel: bool,
+    /// Some reflectance is measured: receivers have a lobe for each channel.
+    pub measured: bool,
 }
 
 /// The WGSL of the kernel for receivers and lights of the given lobes.
@@ -57,12 +59,14 @@ pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<
     let features = [
         ("glossy_receivers", lobes.receivers),
         ("glossy_lights", lobes.lights),
-        ("colored", lobes.colored),
+        ("colored", lobes.colored && !lobes.measured),
+        ("rgb_lobes", lobes.measured),
         ("zonal", settings.form == Form::Zonal),
         ("exact_horizon", settings.horizon == Horizon::Exact),
         ("expanded_emission", expanded),
         ("traced", traced),
         ("exact_fresnel", lobes.exact_fresnel),
+        // Kernels read the tables of harmonics alone.
         ("measured", false),
     ];
     link("gather", include_str!("shaders/gather.wesl"), &modules, &features)
@@ -81,20 +85,23 @@ pub(crate) struct Materials {
     shapes: Vec<LobeShape>,
     colored: bool,
     exact_fresnel: bool,
+    measured: bool,
 }
 
 impl Materials {
     pub(crate) fn new(brdfs: impl Iterator<Item = Brdf>) -> Self {
         let specular: Vec<_> = brdfs.filter(Brdf::has_specular).collect();
-        let mut shapes: Vec<_> = specular.iter().copied().map(LobeShape::from).collect();
+        let mut shapes: Vec<_> = specular.iter().copied().flat_map(LobeShape::all_of).collect();
         shapes.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
         shapes.dedup();
         let grey = |brdf: &Brdf| brdf.f0 == Vec3::splat(brdf.f0.x);
+        let measured = |brdf: &Brdf| matches!(brdf.lobe, Lobe::Measured(_));
         let exact = |brdf: &Brdf| matches!(brdf.lobe, Lobe::Dielectric { .. });
         Self {
             shapes,
             colored: !specular.iter().all(grey),
             exact_fresnel: specular.iter().any(exact),
+            measured: specular.iter().any(measured),
         }
     }
 
@@ -117,8 +124,8 @@ impl Materials {
     fn lobes(&self, settings: &Settings) -> [Lobes; 2] {
         let receivers = !self.shapes.is_empty();
         let lights = receivers && settings.emission_bands != 1;
-        let Self { colored, exact_fresnel, .. } = *self;
-        [false, lights].map(|lights| Lobes { receivers, lights, colored, exact_fresnel })
+        let Self { colored, exact_fresnel, measured, .. } = *self;
+        [false, lights].map(|lights| Lobes { receivers, lights, colored, exact_fresnel, measured })
     }
 
     /// As bindings 5 to 7.
@@ -134,10 +141,14 @@ impl Materials {
             }
         });
         let receivers: Vec<_> = receivers.collect();
-        let mut tables =
-            vec![gpu.storage("shapes", &self.shapes)?, gpu.storage("lobes", &receivers)?];
+        let shapes: Vec<_> = self.shapes.iter().map(|shape| shape.record()).collect();
+        let mut tables = vec![gpu.storage("shapes", &shapes)?, gpu.storage("lobes", &receivers)?];
         let bands = settings.emission_bands;
-        if bands > 1 {
+        // The adapter keeps kernels by their text: that of Lambertian lights, which is the same for all
+        // bands of emission, must find the same bindings.
+        if bands <= 1 {
+            tables.push(gpu.storage("emissions", &[[0_f32; 2]])?);
+        } else {
             let rows = |&shape| single(EmissionTable::of(rounded_shape(shape), bands).values());
             let rows: Vec<_> = self.shapes.iter().flat_map(rows).collect();
             tables.push(gpu.storage("emissions", &rows)?);

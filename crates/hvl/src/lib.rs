@@ -22,7 +22,8 @@
 //! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`]); twice where
 //!   some f0 has a colour. One table serves all materials of one roughness, textured ones included.
 //!   With the exact Fresnel term of a dielectric there is one a roughness and index.
-//! - No measured reflectance.
+//! - Measured: a lobe for each channel, by quadrature of the measurement's own interpolation, and for a
+//!   light's emission. Neither the zonal form nor `emission_bands` = 0 knows them.
 //! - A window damps the bands of both where it is asked for; it is part of the tables.
 //!
 //! # Zonal form (5.2.7)
@@ -60,6 +61,7 @@ mod gather;
 mod half_vectors;
 pub mod horizon;
 mod light_record;
+mod lobe_quadrature;
 mod lobe_shape;
 mod lobe_wgsl;
 pub mod lobes;
@@ -127,11 +129,12 @@ impl Method for Hvl {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        if !Reflectances::of_scene(frame.scene).measured.is_empty() {
-            return Err(Error::Declined("knows no measured materials; this scene has some".into()));
+        let settings = Settings::new(parameters);
+        let measured = !Reflectances::of_scene(frame.scene).measured.is_empty();
+        if let Some(reason) = measured.then(|| settings.unmeasured()).flatten() {
+            return Err(Error::Declined(reason.into()));
         }
         let (on_gpu, shadows) = many_light_frame(frame)?;
-        let settings = Settings::new(parameters);
         let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
         let [width, height] = on_gpu.resolution();
         let pixels = width * height;
@@ -148,7 +151,8 @@ impl Method for Hvl {
 }
 
 /// Radiance of given surfaces under given lights ([`rounded`]), by the adapter's kernels: what a picture
-/// does, for hard cases that no scene brings about.
+/// does, for hard cases that no scene brings about. The settings are to be such that [`Hvl`] would not
+/// decline the reflectances.
 ///
 /// # Errors
 /// Where the adapter refuses.

@@ -16,7 +16,7 @@ pub fn rounded(sphere: &SphericalLight) -> SphericalLight {
         round(&mut light.geometric_normal);
         round(&mut light.normal);
         round(&mut light.incoming);
-        light.brdf = unpack_reflectance(pack_reflectance(&light.brdf), light.brdf.alpha);
+        light.brdf = rounded_brdf(light.brdf);
     }
     SphericalLight { light, radius: sphere.radius }
 }
@@ -84,8 +84,18 @@ impl GlossyLight {
 
 /// The shape of a light on a surface of this shape.
 pub(crate) fn rounded_shape(shape: LobeShape) -> LobeShape {
-    let brdf = shape.brdf();
-    unpack_reflectance(pack_reflectance(&brdf), brdf.alpha).into()
+    match shape.brdf() {
+        Brdf { lobe: Lobe::Measured(_), .. } => shape,
+        brdf => rounded_brdf(brdf).into(),
+    }
+}
+
+/// A measurement's is that of its table.
+fn rounded_brdf(brdf: Brdf) -> Brdf {
+    match brdf.lobe {
+        Lobe::Measured(_) => brdf,
+        _ => unpack_reflectance(pack_reflectance(&brdf), brdf.alpha),
+    }
 }
 
 /// Octahedral coordinates (Meyer et al. 2010) in `unpack2x16snorm`.
@@ -107,12 +117,16 @@ fn unpack_direction(packed: u32) -> Vec3 {
 }
 
 /// Eight values of 0 … 1 in `unpack2x16unorm`; the last one is 1/index of an exact Fresnel term, 0 for
-/// Schlick's.
+/// Schlick's, and the smallest step of a measurement, whose other lobe is black.
 fn pack_reflectance(brdf: &Brdf) -> [u32; 4] {
-    let [d, f] = [brdf.diffuse, brdf.f0];
+    let [d, f] = match brdf.lobe {
+        Lobe::Measured(_) => [Vec3::ZERO, Vec3::ONE],
+        _ => [brdf.diffuse, brdf.f0],
+    };
     let inverse = match brdf.lobe {
         Lobe::Dielectric { index } => 1.0 / index,
-        Lobe::Schlick { .. } | Lobe::Measured(_) => 0.0,
+        Lobe::Schlick { .. } => 0.0,
+        Lobe::Measured(_) => 1.0 / 65535.0,
     };
     let bits = |value: f32| (value.clamp(0.0, 1.0) * 65535.0).round() as u32;
     [[d.x, d.y], [d.z, f.x], [f.y, f.z], [brdf.lobe.f90(), inverse]]

@@ -3,10 +3,11 @@
 
 use manylights_harmonics::{even_count, even_index};
 
+use crate::lobes::ANGLES;
 use crate::{Form, Settings};
 
 /// A module with, for `N` = n (n + 1)/2 coefficients a lobe of n bands, or n of the zonal form,
-/// - `LOBE_SIZE`: N, and `LOBE_ROW`: elements a row of binding 6, which has the tables;
+/// - `LOBE_SIZE`: N; `LOBE_ROW` and `LOBE_TABLE`: elements a row and a table of binding 6;
 /// - `lobe_mixed(first: u32, fraction: f32, share: vec2f) -> array<f32, N>`: of the row at `first` and
 ///   the next, the first of each pair times share.x plus the second times share.y;
 /// - `lobe_dot(y: array<f32, N>, scales: array<f32, n>, lobe: array<f32, N>) -> f32`: the double
@@ -31,7 +32,7 @@ pub(crate) fn module(settings: &Settings) -> String {
     let bands_sum: Vec<_> = (0..bands).map(band).collect();
     format!(
         "@group(0) @binding(6) var<storage, read> lobes: array<vec2f>;\n\n\
-         const LOBE_SIZE = {size}u;\nconst LOBE_ROW = {}u;\n\n\
+         const LOBE_SIZE = {size}u;\nconst LOBE_ROW = {}u;\nconst LOBE_TABLE = {}u;\n\n\
          fn lobe_pair(index: u32, fraction: f32) -> vec2f {{\n    \
          return mix(lobes[index], lobes[index + LOBE_ROW], fraction);\n}}\n\n\
          fn lobe_mixed(first: u32, fraction: f32, share: vec2f) -> array<f32, {size}> {{\n    \
@@ -39,6 +40,7 @@ pub(crate) fn module(settings: &Settings) -> String {
          fn lobe_dot(\n    y: array<f32, {size}>,\n    scales: array<f32, {bands}>,\n    \
          lobe: array<f32, {size}>,\n) -> f32 {{\n    return {};\n}}\n",
         size + header,
+        ANGLES * (size + header),
         values.join(",\n        "),
         bands_sum.join("\n        + "),
     )

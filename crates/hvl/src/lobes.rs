@@ -3,7 +3,7 @@
 //! Schlick's Fresnel term is linear in f0 and f90, so one material's cosine-weighted lobe is
 //! f0 A + f90 B with two scalar lobes A and B that depend on α and the view alone: one table serves
 //! all colours, textured ones included. With the exact term of a dielectric it is f0 A, where A depends
-//! on the index too, and B = 0.
+//! on the index too, and B = 0. A measurement is all A, for each channel.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::LobeShape;
 use crate::cache::Cache;
-use crate::half_vectors::HalfVectors;
+use crate::lobe_quadrature::{Fixed, LobeQuadrature};
 use crate::params::Damping;
 
 /// Angles between view and normal: 0°, 1°, … 90°.
@@ -51,7 +51,8 @@ impl LobeTable {
 
     /// By quadrature; `nodes` in the polar angle of the half vector, and in half a turn.
     pub fn integrate(shape: impl Into<LobeShape>, bands: usize, nodes: [usize; 2]) -> Self {
-        let (basis, lobe) = (Basis::new(bands), HalfVectors::new(shape.into(), nodes));
+        let (basis, lobe) =
+            (Basis::new(bands), LobeQuadrature::new(shape.into(), nodes, Fixed::View));
         let row = |degrees: usize| project(&basis, &lobe, (degrees as f64).to_radians());
         let values = (0..ANGLES).into_par_iter().flat_map_iter(row).collect();
         Self { bands, values }
@@ -103,7 +104,7 @@ pub(crate) fn interpolated(values: &[[f64; 2]], radians: f64) -> Vec<[f64; 2]> {
 }
 
 /// ∫ f(v, l) n·l Y_lm(l) dl; normal z, view in the xz-plane.
-fn project(basis: &Basis<f64>, lobe: &HalfVectors, view: f64) -> Vec<[f64; 2]> {
+fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 2]> {
     let bands = basis.bands();
     let mut sums = vec![[0.0; 2]; even_count(bands)];
     let mut harmonics = vec![0.0; count(bands)];

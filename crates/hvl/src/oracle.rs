@@ -7,11 +7,11 @@ use manylights_gpu::{SphericalLight, SurfaceRecord};
 use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_harmonics::zonal::{Cap, cap_stable, evaluate, rotate};
 use manylights_harmonics::{Basis, count, even_index, index};
-use manylights_scene::DBrdf;
+use manylights_scene::{DBrdf, Lobe};
 
 use crate::lobes::LobeTable;
 use crate::zonal::ZonalTable;
-use crate::{Form, Settings, diffuse, emission, horizon};
+use crate::{Form, LobeShape, Settings, diffuse, emission, horizon};
 
 /// As in the shader: stands for the sine of a sphere without extent.
 const SMALLEST_SINE: f64 = 1e-9;
@@ -128,12 +128,15 @@ impl Receiver {
                 .map(|[a, b]| brdf.f0 * a + DVec3::splat(f64::from(brdf.lobe.f90()) * b))
                 .collect()
         };
-        let specular = if brdf.has_specular() {
-            let shape = surface.brdf();
+        let shape = LobeShape::from(surface.brdf());
+        let full = |shape| LobeTable::of(shape, bands, damping).at(angle);
+        let specular = if let Lobe::Measured(_) = brdf.lobe {
+            let [r, g, b] = shape.channels().map(full);
+            let color = |i: usize| DVec3::new(r[i][0], g[i][0], b[i][0]);
+            Specular::Full((0..r.len()).map(color).collect())
+        } else if brdf.has_specular() {
             match settings.form {
-                Form::Full => {
-                    Specular::Full(colors(LobeTable::of(shape, bands, damping).at(angle)))
-                }
+                Form::Full => Specular::Full(colors(full(shape))),
                 Form::Zonal => {
                     let ([x, z], row) = ZonalTable::of(shape, bands, damping).at(angle);
                     Specular::Zonal(x * tangent + z * normal, colors(row))

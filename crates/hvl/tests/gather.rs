@@ -3,7 +3,7 @@
 mod common;
 
 use common::{
-    FORMS, GPU, SETTINGS, dielectric, glossy, light, metal, oblique, render, spiral, surface,
+    FORMS, GPU, SETTINGS, dielectric, glossy, light, metal, oblique, render, surface, worst,
 };
 use glam::Vec3;
 use manylights_gpu::{Center, GpuFrame, RadiusRule, Shadows, SurfaceRecord};
@@ -11,34 +11,6 @@ use manylights_harmonics::window::Window;
 use manylights_hvl::{Damping, Form, Horizon, Settings, SphericalLight, gather, oracle};
 use manylights_method::Visibility;
 use manylights_scene::Brdf;
-
-/// Receivers around the origin, where a light shines up.
-fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
-    (0..512)
-        .map(|i| {
-            let place = spiral(i, 512) * (0.2 + 0.01 * i as f32);
-            surface(oblique(place), oblique(spiral((i * 197) % 512, 512)), brdf)
-        })
-        .filter(|surface| surface.normal.dot(camera - surface.position) > 0.0)
-        .collect()
-}
-
-/// Largest difference to the oracle over all receivers, relative to the largest true radiance.
-fn worst(receiver: Brdf, sphere: &SphericalLight, settings: &Settings) -> f64 {
-    let camera = oblique(Vec3::new(0.3, 7.0, 0.2));
-    let surfaces = receivers(receiver, camera);
-    let pixels = gather(&GPU, &surfaces, camera, &[*sphere], settings).expect("a gather");
-    let (mut peak, mut worst): (f64, f64) = (0.0, 0.0);
-    for (surface, pixel) in surfaces.iter().zip(pixels) {
-        let truth = oracle::radiance(surface, camera.as_dvec3(), &[*sphere], settings);
-        let pixel = Vec3::from(pixel);
-        assert!(pixel.is_finite(), "{surface:?} {sphere:?}: {pixel}");
-        peak = peak.max(truth.abs().max_element());
-        worst = worst.max((pixel.as_dvec3() - truth).abs().max_element());
-    }
-    assert!(peak > 0.0, "nothing arrives");
-    worst / peak
-}
 
 #[test]
 fn every_form_on_every_pair_of_lobes() {

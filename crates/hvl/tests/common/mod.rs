@@ -6,7 +6,8 @@ use std::sync::LazyLock;
 use glam::{DVec3, Quat, Vec3};
 use manylights_gpu::{Gpu, GpuFrame, RadiusRule, SurfaceRecord, VirtualLight};
 use manylights_hvl::{
-    Damping, Form, Horizon, Hvl, Settings, SphericalLight, oracle, rounded, spherical_lights,
+    Damping, Form, Horizon, Hvl, Settings, SphericalLight, gather, oracle, rounded,
+    spherical_lights,
 };
 use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
 use manylights_metrics::RadianceImage;
@@ -114,4 +115,32 @@ pub(crate) fn spiral(i: u32, count: u32) -> Vec3 {
     let (sin, cos) = (i as f32 * 2.399_963).sin_cos();
     let r = (1.0 - z * z).sqrt();
     Vec3::new(r * cos, r * sin, z)
+}
+
+/// Receivers around the origin, where a light shines up.
+fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
+    (0..512)
+        .map(|i| {
+            let place = spiral(i, 512) * (0.2 + 0.01 * i as f32);
+            surface(oblique(place), oblique(spiral((i * 197) % 512, 512)), brdf)
+        })
+        .filter(|surface| surface.normal.dot(camera - surface.position) > 0.0)
+        .collect()
+}
+
+/// Largest difference to the oracle over all receivers, relative to the largest true radiance.
+pub(crate) fn worst(receiver: Brdf, sphere: &SphericalLight, settings: &Settings) -> f64 {
+    let camera = oblique(Vec3::new(0.3, 7.0, 0.2));
+    let surfaces = receivers(receiver, camera);
+    let pixels = gather(&GPU, &surfaces, camera, &[*sphere], settings).expect("a gather");
+    let (mut peak, mut worst): (f64, f64) = (0.0, 0.0);
+    for (surface, pixel) in surfaces.iter().zip(pixels) {
+        let truth = oracle::radiance(surface, camera.as_dvec3(), &[*sphere], settings);
+        let pixel = Vec3::from(pixel);
+        assert!(pixel.is_finite(), "{surface:?} {sphere:?}: {pixel}");
+        peak = peak.max(truth.abs().max_element());
+        worst = worst.max((pixel.as_dvec3() - truth).abs().max_element());
+    }
+    assert!(peak > 0.0, "nothing arrives");
+    worst / peak
 }
