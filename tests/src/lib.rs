@@ -1,1 +1,67 @@
-//! The tests of this package lie in `tests/`.
+//! What the tests of this package share: pictures by any method, and their references.
+
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
+use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_metrics::RadianceImage;
+use manylights_path_tracer::{Reference, Settings};
+use manylights_scene::Scene;
+
+/// A scene on the adapter, seen by its first camera.
+pub struct Stage {
+    /// As loaded.
+    pub scene: Scene,
+    /// With its G-buffer.
+    pub on_gpu: GpuFrame,
+}
+
+impl Stage {
+    /// At this width and height.
+    pub fn new(scene: Scene, resolution: [u32; 2]) -> Self {
+        let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
+        let on_gpu = GpuFrame::new(&gpu, &scene, &scene.cameras[0], resolution);
+        Self { on_gpu: on_gpu.expect("the scene fits"), scene }
+    }
+
+    /// Of a built-in scene.
+    pub fn builtin(name: &str, resolution: [u32; 2]) -> Self {
+        Self::new(manylights_scene::load(name, None).expect("built in"), resolution)
+    }
+
+    /// The surfaces of all pixels.
+    pub fn surfaces(&self) -> Vec<SurfaceRecord> {
+        self.on_gpu.gpu().read(self.on_gpu.surfaces()).expect("a G-buffer")
+    }
+
+    /// One indirect bounce by a method with these parameters.
+    pub fn picture(
+        &self,
+        method: &dyn Method,
+        parameters: &[(&str, &str)],
+        visibility: Visibility,
+        seed: u64,
+    ) -> RadianceImage {
+        let frame = Frame {
+            scene: &self.scene,
+            camera: &self.scene.cameras[0],
+            resolution: self.on_gpu.resolution(),
+            transport: Transport::Indirect { bounces: 1, visibility },
+            seed,
+            gpu: Some(&self.on_gpu),
+        };
+        let parameters = Parameters::new(method.parameters(), parameters.iter().copied());
+        let parameters = parameters.expect("in range");
+        let mut run = method.prepare(&frame, &parameters).expect("the method renders the scene");
+        while !run.step().expect("a step").finished() {}
+        run.resolve().expect("a picture")
+    }
+
+    /// The same by tracing paths.
+    pub fn reference(&self, visibility: Visibility, samples: u32) -> Reference {
+        let transport = Transport::Indirect { bounces: 1, visibility };
+        let resolution = self.on_gpu.resolution();
+        let settings = Settings { transport, resolution, seed: 0, samples };
+        let (scene, camera) = (&self.scene, &self.scene.cameras[0]);
+        manylights_path_tracer::render(scene, camera, &settings, None, &mut |_| {})
+            .expect("a reference")
+    }
+}

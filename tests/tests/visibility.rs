@@ -1,53 +1,38 @@
-//! Virtual lights with shadows: every pixel sums what its shadow rays let through, and converges to the
-//! reference with shadows.
+//! Virtual lights with shadows: every pixel sums what its shadow rays let through.
 
-use glam::Vec3;
-use manylights_gpu::{Center, Gpu, GpuFrame, Shadows, SurfaceRecord, distribute};
-use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
-use manylights_metrics::RadianceImage;
-use manylights_path_tracer::Settings;
-use manylights_scene::Scene;
-use manylights_vpl::{Vpl, oracle};
+use glam::{DVec3, Vec3};
+use manylights_gpu::{Center, Shadows, SurfaceRecord, distribute};
+use manylights_method::{Method, Visibility};
+use manylights_tests::Stage;
+use manylights_vpl::Vpl;
+use manylights_vsgl::{Vsgl, gaussian_lights};
 
-const TRACED: Transport = Transport::Indirect { bounces: 1, visibility: Visibility::Traced };
-
-fn vpl(scene: &Scene, on_gpu: &GpuFrame, lights: u64) -> RadianceImage {
-    let (camera, resolution) = (&scene.cameras[0], on_gpu.resolution());
-    let frame = Frame { scene, camera, resolution, transport: TRACED, seed: 0, gpu: Some(on_gpu) };
-    let lights = lights.to_string();
-    let parameters = Parameters::new(Vpl.parameters(), [("lights", &*lights)]).expect("in range");
-    let mut run = Vpl.prepare(&frame, &parameters).expect("vpl renders the scene");
-    while !run.step().expect("a step").finished() {}
-    run.resolve().expect("a picture")
-}
-
-fn on_gpu(scene: &Scene, resolution: [u32; 2]) -> GpuFrame {
-    let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
-    GpuFrame::new(&gpu, scene, &scene.cameras[0], resolution).expect("the scene fits")
-}
-
-/// On Lambertian and on glossy surfaces, with more lights than a batch of shadow rays.
-#[test]
-fn pixels_sum_what_they_see() {
+/// Compares a picture with sums of an oracle over the lights that a pixel sees, on Lambertian and on
+/// glossy surfaces.
+fn pixels_sum_what_they_see<L: Copy>(
+    method: &dyn Method,
+    parameters: &[(&str, &str)],
+    lights: impl Fn(&Stage) -> Vec<L>,
+    center: impl Fn(&L) -> Center,
+    radiance: impl Fn(&SurfaceRecord, DVec3, &[L]) -> DVec3,
+) {
     for name in ["cornell", "trio"] {
-        let scene = manylights_scene::load(name, None).expect("built in");
-        let frame = on_gpu(&scene, [32, 24]);
-        let picture = vpl(&scene, &frame, 400);
-        let (lights, _) = distribute(&frame, &scene, 400, 0).expect("lights");
+        let stage = Stage::builtin(name, [32, 24]);
+        let picture = stage.picture(method, parameters, Visibility::Traced, 0);
         // The kernel gathers those on Lambertian surfaces first, but a sum has no order.
-        let centers: Vec<_> = lights.iter().map(Center::from).collect();
-        let shadows = Shadows::new(&frame, &scene).expect("the hierarchy fits");
-        let hidden = shadows.hidden_lights(&frame, &centers).expect("a pass");
-        let surfaces: Vec<SurfaceRecord> = frame.gpu().read(frame.surfaces()).expect("a G-buffer");
-        let eye = scene.cameras[0].position.as_dvec3();
-        let settings = manylights_vpl::Settings { lights: 1, clamp: None, radius: None };
-        let truth: Vec<_> = (0..surfaces.len())
-            .map(|pixel| {
-                let seen = lights.iter().zip(hidden.chunks(surfaces.len()));
-                let seen = seen.filter(|(_, hidden)| !hidden[pixel]).map(|(light, _)| *light);
-                oracle::radiance(&surfaces[pixel], eye, &seen.collect::<Vec<_>>(), &settings)
-            })
-            .collect();
+        let (lights, surfaces) = (lights(&stage), stage.surfaces());
+        let centers: Vec<_> = lights.iter().map(&center).collect();
+        let shadows = Shadows::new(&stage.on_gpu, &stage.scene).expect("the hierarchy fits");
+        let hidden = shadows.hidden_lights(&stage.on_gpu, &centers).expect("a pass");
+        let share = hidden.iter().filter(|hidden| **hidden).count() as f64 / hidden.len() as f64;
+        assert!(share > 0.05 && share < 0.95, "{share} hidden: a weak test");
+        let eye = stage.scene.cameras[0].position.as_dvec3();
+        let truth = |(pixel, surface): (usize, &SurfaceRecord)| {
+            let pairs = lights.iter().zip(hidden.chunks(surfaces.len()));
+            let seen = pairs.filter(|(_, hidden)| !hidden[pixel]).map(|(light, _)| *light);
+            radiance(surface, eye, &seen.collect::<Vec<_>>())
+        };
+        let truth: Vec<_> = surfaces.iter().enumerate().map(truth).collect();
         let peak = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
         assert!(peak > 0.0);
         for (pixel, truth) in picture.pixels.iter().zip(&truth) {
@@ -57,23 +42,28 @@ fn pixels_sum_what_they_see() {
     }
 }
 
-/// As without visibility (vpl_truths.rs). The mean absolute error, since single pixels next to an edge
-/// make the RMSE of so few lights a matter of chance.
+/// More of them than a batch of shadow rays.
 #[test]
-fn converges_to_the_reference() {
-    let scene = manylights_scene::load("cornell", None).expect("built in");
-    let resolution = [48, 48];
-    let settings = Settings { transport: TRACED, resolution, seed: 0, samples: 1024 };
-    let reference =
-        manylights_path_tracer::render(&scene, &scene.cameras[0], &settings, None, &mut |_| {})
-            .expect("a reference");
-    let frame = on_gpu(&scene, resolution);
-    let errors = [16, 256, 4096].map(|lights| {
-        let image = vpl(&scene, &frame, lights);
-        manylights_metrics::compare_linear(&image, &reference.image).expect("comparable").mae
-    });
-    println!("mean absolute errors {errors:?}, noise floor {}", reference.noise_floor);
-    for pair in errors.windows(2) {
-        assert!(pair[1] < 0.5 * pair[0], "{errors:?}");
-    }
+fn points() {
+    pixels_sum_what_they_see(
+        &Vpl,
+        &[("lights", "400")],
+        |stage| distribute(&stage.on_gpu, &stage.scene, 400, 0).expect("lights").0,
+        |light| Center::from(light),
+        |surface, eye, lights| {
+            manylights_vpl::oracle::radiance(surface, eye, lights, &Default::default())
+        },
+    );
+}
+
+#[test]
+fn gaussians() {
+    let settings = manylights_vsgl::Settings { lights: 300, texels: 5, ..Default::default() };
+    pixels_sum_what_they_see(
+        &Vsgl,
+        &[("lights", "300"), ("texels", "5")],
+        |stage| gaussian_lights(&stage.on_gpu, &stage.scene, &settings, 0).expect("lights").0,
+        |light| Center::new(light.center, light.geometric_normal),
+        |surface, eye, lights| manylights_vsgl::oracle::radiance(surface, eye, lights, &settings),
+    );
 }

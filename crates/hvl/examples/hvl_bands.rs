@@ -1,11 +1,11 @@
 //! What a number of bands leaves of the integral over the sphere, and what one circular lobe holds of
-//! the specular one: written to `results/hvl-bands/table.md`. Run with
+//! the specular one: written to `results/hvl/bands.md`. Run with
 //! `cargo run --release -p manylights-hvl --example hvl_bands`.
 
 use std::fmt::Write as _;
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::{RadiusRule, SurfaceRecord, VirtualLight};
+use manylights_gpu::{SurfaceRecord, VirtualLight};
 use manylights_harmonics::window::Window;
 use manylights_hvl::lobes::LobeTable;
 use manylights_hvl::zonal::ZonalTable;
@@ -14,17 +14,6 @@ use manylights_scene::{Brdf, Lobe};
 
 const BANDS: [usize; 6] = [1, 3, 5, 10, 15, 20];
 const ROUGHNESS: [f32; 6] = [1.0, 0.6, 0.4, 0.3, 0.2, 0.1];
-
-const SETTINGS: Settings = Settings {
-    lights: 1,
-    bands: 5,
-    form: Form::Full,
-    emission_bands: 0,
-    damping: Damping::None,
-    radius: RadiusRule::FieldOfView,
-    scale: 1.0,
-    horizon: Horizon::Exact,
-};
 
 fn glossy(roughness: f32) -> Brdf {
     // A metal: nothing but the specular lobe.
@@ -78,10 +67,7 @@ fn views() -> [DVec3; 3] {
 }
 
 fn surface(brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, lobe, alpha } = brdf;
-    let f90 = lobe.slot();
-    let (position, normal) = (Vec3::ZERO, Vec3::Y);
-    SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
+    SurfaceRecord::new(Vec3::ZERO, Vec3::Y, brdf)
 }
 
 fn main() {
@@ -102,9 +88,10 @@ fn main() {
     };
     line(&mut BANDS.iter().map(|n| format!("{n} bands")), "");
     line(&mut BANDS.iter().map(|_| "---".to_owned()), "|---|---|");
-    let hann = Settings { damping: Damping::Window(Window::Hann), ..SETTINGS };
-    let weakest = Settings { damping: Damping::Weakest, ..SETTINGS };
-    let zonal = Settings { form: Form::Zonal, ..SETTINGS };
+    let plain = Settings { horizon: Horizon::Exact, ..Settings::default() };
+    let hann = Settings { damping: Damping::Window(Window::Hann), ..plain };
+    let weakest = Settings { damping: Damping::Weakest, ..plain };
+    let zonal = Settings { form: Form::Zonal, ..plain };
     for roughness in ROUGHNESS {
         let brdf = glossy(roughness);
         let truth = |view, sphere: &SphericalLight| {
@@ -114,7 +101,7 @@ fn main() {
             .into_iter()
             .map(|view| spheres().iter().map(|sphere| truth(view, sphere)).collect())
             .collect();
-        for (name, settings) in [("", SETTINGS), ("w", hann), ("d", weakest), ("zonal", zonal)] {
+        for (name, settings) in [("", plain), ("w", hann), ("d", weakest), ("zonal", zonal)] {
             let error = |&bands| error(brdf, &truths, &Settings { bands, ..settings });
             let mut cells = BANDS.iter().map(|bands| format!("{:.3}", error(bands)));
             line(&mut cells, &format!("| {roughness} | {name} |"));
@@ -134,8 +121,8 @@ fn main() {
         }
         table.push('\n');
     }
-    let folder = "results/hvl-bands";
+    let folder = "results/hvl";
     std::fs::create_dir_all(folder).expect("the results folder can be made");
-    std::fs::write(format!("{folder}/table.md"), &table).expect("the table can be written");
+    std::fs::write(format!("{folder}/bands.md"), &table).expect("the table can be written");
     print!("{table}");
 }

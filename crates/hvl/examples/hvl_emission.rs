@@ -1,5 +1,5 @@
 //! What expanding the emission of glossy lights costs and changes, on `trio`: written to
-//! `results/hvl-emission/table.md`. Run with
+//! `results/hvl/emission.md`. Run with
 //! `cargo run --release -p manylights-hvl --example hvl_emission`.
 
 use std::fmt::Write as _;
@@ -71,8 +71,8 @@ fn main() {
         let ratio = median / medians[0];
         writeln!(table, "| {bands} | {difference:.4} | {ratio:.2} |").expect("writing to a string");
     }
-    let folder = "results/hvl-emission";
+    let folder = "results/hvl";
     std::fs::create_dir_all(folder).expect("the results folder can be made");
-    std::fs::write(format!("{folder}/table.md"), &table).expect("the table can be written");
+    std::fs::write(format!("{folder}/emission.md"), &table).expect("the table can be written");
     print!("{table}");
 }

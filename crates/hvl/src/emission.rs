@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::cache::Cache;
 use crate::lobe_quadrature::{Fixed, LobeQuadrature};
-use crate::{Damping, LobeShape, diffuse};
+use crate::{Damping, LobeShape, diffuse, lobes};
 
 /// Angles between primary light and normal: 0°, 1°, … 89°. At 90° the reflectance has no bound.
 pub const ANGLES: usize = 90;
@@ -45,7 +45,9 @@ impl EmissionTable {
     }
 
     fn integrate(shape: LobeShape, bands: usize) -> Self {
-        let (basis, lobe) = (Basis::new(bands), LobeQuadrature::new(shape, NODES, Fixed::Light));
+        // Kinks of its interpolation limit those of a measurement, and evaluating it takes long.
+        let nodes = if shape.is_measured() { lobes::NODES } else { NODES };
+        let (basis, lobe) = (Basis::new(bands), LobeQuadrature::new(shape, nodes, Fixed::Light));
         let row = |degrees: usize| project(&basis, &lobe, (degrees as f64).to_radians());
         Self { values: (0..ANGLES).into_par_iter().flat_map_iter(row).collect() }
     }
@@ -61,7 +63,8 @@ impl EmissionTable {
     }
 }
 
-/// ∫ f(v, l) Y_lm(l) dl over the sphere, f mirrored in the horizon, times what keeps the flux of A + B:
+/// ∫ f(v, l) Y_lm(l) dl over the sphere, f mirrored in the horizon, times what keeps the flux of A + B,
+/// or of each channel of a measurement:
 /// a few bands of a lobe near the horizon put most of it where the cosine is large, up to 23 times its
 /// flux, and those of one about the normal half of it.
 fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 2]> {
@@ -69,10 +72,11 @@ fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 2]
     let terms: Vec<_> = terms(bands).collect();
     let mut sums = vec![[0.0; 2]; terms.len()];
     let mut harmonics = vec![0.0; count(bands)];
-    let mut flux = 0.0;
+    let mut flux = [0.0; 2];
     for (direction, [a, b]) in lobe.reflected(DVec3::new(view.sin(), 0.0, view.cos())) {
         basis.evaluate(direction.to_array(), &mut harmonics);
-        flux += direction.z * (a + b);
+        flux[0] += direction.z * a;
+        flux[1] += direction.z * b;
         for (sum, &(l, m)) in sums.iter_mut().zip(&terms) {
             let value = 2.0 * harmonics[index(l, m as isize)];
             sum[0] += value * a;
@@ -81,12 +85,12 @@ fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 2]
     }
     let mut cosine = vec![0.0; bands];
     clamped_cosine::scales(&mut cosine);
-    let zonal = sums.iter().zip(&terms).filter(|(_, (_, m))| *m == 0);
-    let expanded: f64 =
-        zonal.map(|([a, b], &(l, _))| (a + b) * cosine[l] * diffuse::addition(l).sqrt()).sum();
-    // A measurement may have a black channel.
-    let scale = if flux > 0.0 { flux / expanded } else { 1.0 };
-    sums.into_iter().map(|pair| pair.map(|value| value * scale)).collect()
+    let expanded = [0, 1].map(|k| {
+        let zonal = sums.iter().zip(&terms).filter(|(_, (_, m))| *m == 0);
+        zonal.map(|(pair, &(l, _))| pair[k] * cosine[l] * diffuse::addition(l).sqrt()).sum()
+    });
+    let [a, b] = lobe.kept(flux, expanded);
+    sums.into_iter().map(|pair| [a * pair[0], b * pair[1]]).collect()
 }
 
 /// The row for a light: its angle in whole degrees.
@@ -119,7 +123,8 @@ pub fn reflectance(light: &VirtualLight, toward: DVec3, bands: usize) -> DVec3 {
     };
     let shape = LobeShape::from(light.brdf);
     if matches!(brdf.lobe, Lobe::Measured(_)) {
-        return shape.channels().map(|shape| lobe(shape)[0]).into();
+        let [[red, green], [blue, _]] = shape.of_measurement().map(lobe);
+        return DVec3::new(red, green, blue);
     }
     let [a, b] = lobe(shape);
     let mirrored = diffuse::mirrored_grazing(bands).into_iter().enumerate();

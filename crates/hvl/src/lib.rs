@@ -22,7 +22,7 @@
 //! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`]); twice where
 //!   some f0 has a colour. One table serves all materials of one roughness, textured ones included.
 //!   With the exact Fresnel term of a dielectric there is one a roughness and index.
-//! - Measured: a lobe for each channel, by quadrature of the measurement's own interpolation, and for a
+//! - Measured: a lobe for each channel, in two tables, by quadrature of the measurement's own interpolation, and for a
 //!   light's emission. Neither the zonal form nor `emission_bands` = 0 knows them.
 //! - A window damps the bands of both where it is asked for; it is part of the tables.
 //!
@@ -40,9 +40,8 @@
 //! alone makes the light as cheap as a Lambertian one. See `examples/hvl_emission.rs` for what each costs.
 //!
 //! # Cost
-//! A pixel's expansion is fetched once a batch, not once a light. `examples/virtual_light_throughput.rs` prints what a
-//! pair of light and pixel takes. Lights take 48 bytes, glossy ones
-//! 64.
+//! A pixel's expansion is fetched once a batch, not once a light. Lights take 48 bytes, glossy ones 64.
+//! What a pair of light and pixel takes: `tests/examples/virtual_light_throughput`.
 //!
 //! # Deviations from the papers
 //! - 5.8: the lower clamp is π/2 − a; as printed it never acts.
@@ -74,8 +73,7 @@ use glam::Vec3;
 use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
 use manylights_harmonics::even_count;
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
-    many_light_frame,
+    Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
 };
 
 use gather::{CAPACITY, Materials};
@@ -94,7 +92,7 @@ const PRODUCTS_A_STEP: u64 = 1 << 31;
 /// The method.
 pub struct Hvl;
 
-impl Method for Hvl {
+impl ManyLightMethod for Hvl {
     fn id(&self) -> &'static str {
         "hvl"
     }
@@ -103,50 +101,31 @@ impl Method for Hvl {
         "harmonics virtual lights (Mézières et al. 2022)"
     }
 
-    fn processor(&self) -> Processor {
-        Processor::Gpu
-    }
-
     fn parameters(&self) -> &'static [ParameterInfo] {
         params::PARAMETERS
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        "lights"
-    }
-
-    fn visibility(&self) -> Visibility {
-        Visibility::Ignored
-    }
-
-    /// Half of the lights is half of the flux.
-    fn is_progressive(&self) -> bool {
-        false
-    }
-
     fn prepare<'a>(
         &self,
-        frame: &Frame<'a>,
+        frame: ManyLightFrame<'a>,
         parameters: &Parameters,
-    ) -> Result<Box<dyn Run + 'a>, Error> {
+    ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let measured = !Reflectances::of_scene(frame.scene).measured.is_empty();
+        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, shadows } = frame;
+        let gpu = on_gpu.gpu();
+        let measured = !Reflectances::of_scene(scene).measured.is_empty();
         if let Some(reason) = measured.then(|| settings.unmeasured()).flatten() {
             return Err(Error::Declined(reason.into()));
         }
-        let (on_gpu, shadows) = many_light_frame(frame)?;
-        let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
-        let [width, height] = on_gpu.resolution();
-        let pixels = width * height;
         let materials = Materials::of_scene(scene);
-        let gather = gather::gather(gpu, pixels, camera.position, &materials, &settings, shadows)?;
+        let gather = gather::gather(gpu, pixels, eye, &materials, &settings, shadows)?;
         let products_a_batch = u64::from(pixels) * (CAPACITY * even_count(settings.bands)) as u64;
-        let batches_a_step = (PRODUCTS_A_STEP / products_a_batch) as usize;
+        let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
         let place = move |gather: &LightGather| {
             let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
             Ok((gather::batches(gather, &lights, &materials, &settings)?, times))
         };
-        Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
+        Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
     }
 }
 

@@ -3,7 +3,8 @@
 //! Schlick's Fresnel term is linear in f0 and f90, so one material's cosine-weighted lobe is
 //! f0 A + f90 B with two scalar lobes A and B that depend on α and the view alone: one table serves
 //! all colours, textured ones included. With the exact term of a dielectric it is f0 A, where A depends
-//! on the index too, and B = 0. A measurement is all A, for each channel.
+//! on the index too, and B = 0. A measurement takes two tables: A and B are red and green of the one,
+//! blue and nothing of the other.
 
 use std::sync::Arc;
 
@@ -26,6 +27,8 @@ pub const NODES: [usize; 2] = [96, 96];
 /// Reflectances [f0, f90] under which no lobe of a damped table rings: without the Fresnel term, and of
 /// a dielectric, most of which is at grazing angles.
 const DAMPED: [[f64; 2]; 2] = [[1.0, 1.0], [0.04, 1.0]];
+/// The same of a measurement: each channel on its own.
+const CHANNELS: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 
 /// The lobes of one shape.
 #[derive(Clone, Debug)]
@@ -46,7 +49,8 @@ impl LobeTable {
         if damping == Damping::None {
             return plain;
         }
-        WINDOWED.get((shape, bands, damping), || plain.damped(damping))
+        let colors = if shape.is_measured() { CHANNELS } else { DAMPED };
+        WINDOWED.get((shape, bands, damping), || plain.damped(damping, colors))
     }
 
     /// By quadrature; `nodes` in the polar angle of the half vector, and in half a turn.
@@ -58,11 +62,11 @@ impl LobeTable {
         Self { bands, values }
     }
 
-    /// The same under a window, for each row the strongest of those for [`DAMPED`].
-    fn damped(&self, damping: Damping) -> Self {
+    /// The same under a window, for each row the strongest of those for some reflectances.
+    fn damped(&self, damping: Damping, reflectances: [[f64; 2]; 2]) -> Self {
         let rows = self.values.par_chunks(even_count(self.bands));
         let damp = |row: &[[f64; 2]]| {
-            let weights = DAMPED.map(|[f0, f90]| {
+            let weights = reflectances.map(|[f0, f90]| {
                 let lobe: Vec<_> = row.iter().map(|[a, b]| f0 * a + f90 * b).collect();
                 damping.of_lobe(self.bands, &lobe)
             });

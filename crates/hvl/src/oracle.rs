@@ -131,9 +131,9 @@ impl Receiver {
         let shape = LobeShape::from(surface.brdf());
         let full = |shape| LobeTable::of(shape, bands, damping).at(angle);
         let specular = if let Lobe::Measured(_) = brdf.lobe {
-            let [r, g, b] = shape.channels().map(full);
-            let color = |i: usize| DVec3::new(r[i][0], g[i][0], b[i][0]);
-            Specular::Full((0..r.len()).map(color).collect())
+            let [red_green, blue] = shape.of_measurement().map(full);
+            let color = |([r, g], [b, _]): ([f64; 2], [f64; 2])| DVec3::new(r, g, b);
+            Specular::Full(red_green.into_iter().zip(blue).map(color).collect())
         } else if brdf.has_specular() {
             match settings.form {
                 Form::Full => Specular::Full(colors(full(shape))),

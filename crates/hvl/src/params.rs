@@ -3,11 +3,7 @@ use manylights_harmonics::window::Window;
 use manylights_method::{ParameterInfo, ParameterKind, Parameters};
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
-    ParameterInfo {
-        name: "lights",
-        help: "cells of the reflective shadow maps, rounded up to whole square maps",
-        kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
-    },
+    ParameterInfo::LIGHTS,
     ParameterInfo {
         name: "bands",
         help: "bands of the shaded point's reflectance, l = 0 … bands − 1",
@@ -29,16 +25,8 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
                3 = Hamming, 4 = the weakest sinc⁴ under which a lobe is not negative",
         kind: ParameterKind::Count { default: 0, min: 0, max: 4 },
     },
-    ParameterInfo {
-        name: "radius",
-        help: "0 = ten nearest lights, 1 = r₁ (thesis 5.9), 2 = r₂ (thesis 5.12), 3 = one metre",
-        kind: ParameterKind::Count { default: 2, min: 0, max: 3 },
-    },
-    ParameterInfo {
-        name: "scale",
-        help: "factor on all radii; the thesis advises 1 to 2; 0 = point lights",
-        kind: ParameterKind::Real { default: 1.0, min: 0.0, max: 1e6 },
-    },
+    ParameterInfo::RADIUS,
+    ParameterInfo::SCALE,
     ParameterInfo {
         name: "horizon",
         help: "share of a sphere above the horizon: 0 = smoothstep (thesis 5.8), 1 = exact",
@@ -99,6 +87,13 @@ pub struct Settings {
     pub scale: f32,
     /// Form of the horizon.
     pub horizon: Horizon,
+}
+
+/// What `list methods` shows.
+impl Default for Settings {
+    fn default() -> Self {
+        Self::new(&Parameters::defaults(PARAMETERS))
+    }
 }
 
 impl Settings {

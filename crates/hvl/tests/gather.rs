@@ -6,9 +6,9 @@ use common::{
     FORMS, GPU, SETTINGS, dielectric, glossy, light, metal, oblique, render, surface, worst,
 };
 use glam::Vec3;
-use manylights_gpu::{Center, GpuFrame, RadiusRule, Shadows, SurfaceRecord};
+use manylights_gpu::{Center, GpuFrame, RadiusRule, Shadows};
 use manylights_harmonics::window::Window;
-use manylights_hvl::{Damping, Form, Horizon, Settings, SphericalLight, gather, oracle};
+use manylights_hvl::{Damping, Form, Horizon, Settings, gather, oracle};
 use manylights_method::Visibility;
 use manylights_scene::Brdf;
 

@@ -11,7 +11,7 @@ use manylights_gpu::GpuFrame;
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Camera, Scene};
 
-pub use many_lights::{ManyLightRun, PlacedLights, many_light_frame};
+pub use many_lights::{ManyLightFrame, ManyLightMethod, ManyLightRun, PlacedLights};
 pub use parameters::{ParameterInfo, ParameterKind, Parameters};
 pub use transport::{Transport, Visibility};
 

@@ -1,34 +1,118 @@
 //! What methods that gather virtual lights have in common, but for the estimator.
 
+use glam::Vec3;
 use manylights_gpu::{GpuFrame, LightBatches, LightGather, Shadows};
 use manylights_metrics::RadianceImage;
+use manylights_scene::Scene;
 
-use crate::{Error, Frame, PassTime, Progress, Run, Transport, Visibility};
+use crate::{
+    Error, Frame, Method, ParameterInfo, Parameters, PassTime, Processor, Progress, Run, Transport,
+    Visibility,
+};
 
-/// The frame on the adapter, where it is one that virtual lights can render (one indirect bounce of
-/// point-like primary lights), and the shadow rays that the transport wants.
-///
-/// # Errors
-/// [`Error::Declined`] with the reason.
-pub fn many_light_frame<'a>(frame: &Frame<'a>) -> Result<(&'a GpuFrame, Option<Shadows>), Error> {
-    let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
-    let Transport::Indirect { bounces: 1, visibility } = frame.transport else {
-        return declined("computes one indirect bounce: use --transport indirect-1");
-    };
-    if frame.scene.emissive_triangles().next().is_some() {
-        return declined("needs point-like primary lights; this scene has emissive triangles");
+/// A method that gathers virtual lights on the adapter. What does not depend on the estimator is alike
+/// for all of them and makes them a [`Method`]: one indirect bounce of point-like primary lights; time
+/// and accuracy grow with the parameter [`ParameterInfo::LIGHTS`]; the thesis casts no shadow rays; and
+/// half of the lights is half of the flux, so that only the last picture estimates anything.
+pub trait ManyLightMethod: Sync {
+    /// As [`Method::id`].
+    fn id(&self) -> &'static str;
+
+    /// As [`Method::title`].
+    fn title(&self) -> &'static str;
+
+    /// As [`Method::parameters`], `lights` among them.
+    fn parameters(&self) -> &'static [ParameterInfo];
+
+    /// As [`Method::prepare`].
+    ///
+    /// # Errors
+    /// [`Error::Declined`] with a reason where the scene is not the method's.
+    fn prepare<'a>(
+        &self,
+        frame: ManyLightFrame<'a>,
+        parameters: &Parameters,
+    ) -> Result<ManyLightRun<'a>, Error>;
+}
+
+impl<M: ManyLightMethod> Method for M {
+    fn id(&self) -> &'static str {
+        ManyLightMethod::id(self)
     }
-    if frame.scene.lights.is_empty() {
-        return declined("needs a point, spot or directional light; this scene has none");
+
+    fn title(&self) -> &'static str {
+        ManyLightMethod::title(self)
     }
-    let Some(on_gpu) = frame.gpu else {
-        return Err(Error::Failed("runs on the adapter and was given none".into()));
-    };
-    let shadows = match visibility {
-        Visibility::Traced => Some(Shadows::new(on_gpu, frame.scene)?),
-        Visibility::Ignored => None,
-    };
-    Ok((on_gpu, shadows))
+
+    fn processor(&self) -> Processor {
+        Processor::Gpu
+    }
+
+    fn parameters(&self) -> &'static [ParameterInfo] {
+        ManyLightMethod::parameters(self)
+    }
+
+    fn cost_parameter(&self) -> &'static str {
+        ParameterInfo::LIGHTS.name
+    }
+
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
+    fn is_progressive(&self) -> bool {
+        false
+    }
+
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        let frame = ManyLightFrame::new(frame)?;
+        Ok(Box::new(ManyLightMethod::prepare(self, frame, parameters)?))
+    }
+}
+
+/// A frame that virtual lights can render.
+pub struct ManyLightFrame<'a> {
+    /// As [`Frame::scene`].
+    pub scene: &'a Scene,
+    /// Of the camera.
+    pub eye: Vec3,
+    /// As [`Frame::seed`].
+    pub seed: u64,
+    /// As [`Frame::gpu`].
+    pub on_gpu: &'a GpuFrame,
+    /// Of the picture.
+    pub pixels: u32,
+    /// The shadow rays that the transport wants.
+    pub shadows: Option<Shadows>,
+}
+
+impl<'a> ManyLightFrame<'a> {
+    fn new(frame: &Frame<'a>) -> Result<Self, Error> {
+        let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
+        let Frame { scene, camera, transport, seed, gpu, .. } = *frame;
+        let Transport::Indirect { bounces: 1, visibility } = transport else {
+            return declined("computes one indirect bounce: use --transport indirect-1");
+        };
+        if scene.emissive_triangles().next().is_some() {
+            return declined("needs point-like primary lights; this scene has emissive triangles");
+        }
+        if scene.lights.is_empty() {
+            return declined("needs a point, spot or directional light; this scene has none");
+        }
+        let Some(on_gpu) = gpu else {
+            return Err(Error::Failed("runs on the adapter and was given none".into()));
+        };
+        let shadows = match visibility {
+            Visibility::Traced => Some(Shadows::new(on_gpu, scene)?),
+            Visibility::Ignored => None,
+        };
+        let pixels = on_gpu.resolution().into_iter().product();
+        Ok(Self { scene, eye: camera.position, seed, on_gpu, pixels, shadows })
+    }
 }
 
 /// The lights of a picture on the adapter, and the passes that placed them there.
@@ -52,14 +136,14 @@ impl<'a> ManyLightRun<'a> {
     pub fn new(
         frame: &'a GpuFrame,
         gather: LightGather,
-        batches_a_step: usize,
+        batches_a_step: u64,
         place: impl Fn(&LightGather) -> PlacedLights + 'a,
     ) -> Self {
         let most = gather.traced_batches().unwrap_or(usize::MAX);
         Self {
             frame,
             gather,
-            batches_a_step: batches_a_step.clamp(1, most),
+            batches_a_step: (batches_a_step as usize).clamp(1, most),
             place: Box::new(place),
             placed: None,
             next: 0,

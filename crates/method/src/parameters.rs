@@ -39,6 +39,30 @@ pub struct ParameterInfo {
     pub kind: ParameterKind,
 }
 
+/// Those that virtual lights have in common.
+impl ParameterInfo {
+    /// The lights of a picture.
+    pub const LIGHTS: Self = Self {
+        name: "lights",
+        help: "cells of the reflective shadow maps, rounded up to whole square maps",
+        kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
+    };
+
+    /// Where radii of spheres come from.
+    pub const RADIUS: Self = Self {
+        name: "radius",
+        help: "0 = ten nearest lights, 1 = r₁ (thesis 5.9), 2 = r₂ (thesis 5.12), 3 = one metre",
+        kind: ParameterKind::Count { default: 2, min: 0, max: 3 },
+    };
+
+    /// Of radii of spheres.
+    pub const SCALE: Self = Self {
+        name: "scale",
+        help: "factor on all radii; the thesis advises 1 to 2; 0 = point lights",
+        kind: ParameterKind::Real { default: 1.0, min: 0.0, max: 1e6 },
+    };
+}
+
 /// Checked values for all parameters of one method.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 pub struct Parameters {
@@ -46,6 +70,11 @@ pub struct Parameters {
 }
 
 impl Parameters {
+    /// Nothing set.
+    pub fn defaults(infos: &'static [ParameterInfo]) -> Self {
+        Self { values: infos.iter().map(|info| (info.name, info.kind.value())).collect() }
+    }
+
     /// The defaults of `infos` overridden by `settings` (key, value as written).
     ///
     /// # Errors
@@ -54,8 +83,7 @@ impl Parameters {
         infos: &'static [ParameterInfo],
         settings: impl IntoIterator<Item = (&'s str, &'s str)>,
     ) -> Result<Self, String> {
-        let mut values: BTreeMap<_, _> =
-            infos.iter().map(|info| (info.name, info.kind.value())).collect();
+        let Self { mut values } = Self::defaults(infos);
         for (key, text) in settings {
             let Some(info) = infos.iter().find(|info| info.name == key) else {
                 let known: Vec<_> = infos.iter().map(|info| info.name).collect();

@@ -22,8 +22,7 @@ mod params;
 use glam::Vec3;
 use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord, VirtualLight, distribute};
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
-    many_light_frame,
+    Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
 };
 
 use gather::LAMBERT_CAPACITY;
@@ -38,7 +37,7 @@ const PAIRS_A_STEP: u64 = 1 << 28;
 /// The method.
 pub struct Vpl;
 
-impl Method for Vpl {
+impl ManyLightMethod for Vpl {
     fn id(&self) -> &'static str {
         "vpl"
     }
@@ -47,46 +46,26 @@ impl Method for Vpl {
         "virtual point lights (Keller 1997; RSM placement)"
     }
 
-    fn processor(&self) -> Processor {
-        Processor::Gpu
-    }
-
     fn parameters(&self) -> &'static [ParameterInfo] {
         params::PARAMETERS
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        "lights"
-    }
-
-    fn visibility(&self) -> Visibility {
-        Visibility::Ignored
-    }
-
-    /// Half of the lights is half of the flux.
-    fn is_progressive(&self) -> bool {
-        false
-    }
-
     fn prepare<'a>(
         &self,
-        frame: &Frame<'a>,
+        frame: ManyLightFrame<'a>,
         parameters: &Parameters,
-    ) -> Result<Box<dyn Run + 'a>, Error> {
-        let (on_gpu, shadows) = many_light_frame(frame)?;
+    ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
-        let [width, height] = on_gpu.resolution();
-        let pixels = width * height;
+        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, shadows } = frame;
+        let gpu = on_gpu.gpu();
         let kinds = Reflectances::of_scene(scene);
-        let gather = gather::gather(gpu, pixels, camera.position, &kinds, &settings, shadows)?;
-        let pairs_a_batch = u64::from(pixels) * LAMBERT_CAPACITY as u64;
-        let batches_a_step = (PAIRS_A_STEP / pairs_a_batch) as usize;
+        let gather = gather::gather(gpu, pixels, eye, &kinds, &settings, shadows)?;
+        let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {
             let (lights, times) = distribute(on_gpu, scene, settings.lights, seed)?;
             Ok((gather::batches(gather, &lights)?, times))
         };
-        Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
+        Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
     }
 }
 

@@ -2,9 +2,8 @@ use manylights_method::{ParameterInfo, ParameterKind, Parameters};
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     ParameterInfo {
-        name: "lights",
-        help: "cells of the reflective shadow maps, rounded up to whole square maps",
         kind: ParameterKind::Count { default: 1024, min: 1, max: 1 << 24 },
+        ..ParameterInfo::LIGHTS
     },
     ParameterInfo {
         name: "clamp",
@@ -27,6 +26,13 @@ pub struct Settings {
     pub clamp: Option<f32>,
     /// Radius of Yuksel's attenuation, metres.
     pub radius: Option<f32>,
+}
+
+/// What `list methods` shows.
+impl Default for Settings {
+    fn default() -> Self {
+        Self::new(&Parameters::defaults(PARAMETERS))
+    }
 }
 
 impl Settings {

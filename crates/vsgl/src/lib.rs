@@ -68,8 +68,7 @@ mod params;
 use glam::Vec3;
 use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
-    many_light_frame,
+    Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
 };
 
 use gather::LAMBERT_CAPACITY;
@@ -86,7 +85,7 @@ const PAIRS_A_STEP: u64 = 1 << 26;
 /// The method.
 pub struct Vsgl;
 
-impl Method for Vsgl {
+impl ManyLightMethod for Vsgl {
     fn id(&self) -> &'static str {
         "vsgl"
     }
@@ -95,53 +94,32 @@ impl Method for Vsgl {
         "virtual spherical Gaussian lights (Tokuyoshi 2015)"
     }
 
-    fn processor(&self) -> Processor {
-        Processor::Gpu
-    }
-
     fn parameters(&self) -> &'static [ParameterInfo] {
         params::PARAMETERS
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        "lights"
-    }
-
-    fn visibility(&self) -> Visibility {
-        Visibility::Ignored
-    }
-
-    /// Half of the lights is half of the flux.
-    fn is_progressive(&self) -> bool {
-        false
-    }
-
     fn prepare<'a>(
         &self,
-        frame: &Frame<'a>,
+        frame: ManyLightFrame<'a>,
         parameters: &Parameters,
-    ) -> Result<Box<dyn Run + 'a>, Error> {
-        let materials = Materials::of_scene(frame.scene);
+    ) -> Result<ManyLightRun<'a>, Error> {
+        let settings = Settings::new(parameters);
+        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, shadows } = frame;
+        let gpu = on_gpu.gpu();
+        let materials = Materials::of_scene(scene);
         if !materials.kinds.measured.is_empty() {
             return Err(Error::Declined(
                 "has circular lobes alone and knows no measured materials; this scene has some"
                     .into(),
             ));
         }
-        let (on_gpu, shadows) = many_light_frame(frame)?;
-        let settings = Settings::new(parameters);
-        let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
-        let [width, height] = on_gpu.resolution();
-        let pixels = width * height;
-        let kinds = &materials.kinds;
-        let gather = gather::gather(gpu, pixels, camera.position, kinds, &settings, shadows)?;
-        let pairs_a_batch = u64::from(pixels) * LAMBERT_CAPACITY as u64;
-        let batches_a_step = (PAIRS_A_STEP / pairs_a_batch) as usize;
+        let gather = gather::gather(gpu, pixels, eye, &materials.kinds, &settings, shadows)?;
+        let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {
             let (lights, times) = lights_of_materials(on_gpu, scene, &materials, &settings, seed)?;
             Ok((gather::batches(gather, &lights)?, times))
         };
-        Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
+        Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
     }
 }
 

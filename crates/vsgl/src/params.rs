@@ -2,9 +2,8 @@ use manylights_method::{ParameterInfo, ParameterKind, Parameters};
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     ParameterInfo {
-        name: "lights",
         help: "groups of texels of the reflective shadow maps, rounded up to whole square maps",
-        kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
+        ..ParameterInfo::LIGHTS
     },
     ParameterInfo {
         name: "texels",
@@ -37,6 +36,13 @@ pub struct Settings {
     pub texels: u32,
     /// The shaded point's specular lobe.
     pub lobe: SpecularLobe,
+}
+
+/// What `list methods` shows.
+impl Default for Settings {
+    fn default() -> Self {
+        Self::new(&Parameters::defaults(PARAMETERS))
+    }
 }
 
 impl Settings {

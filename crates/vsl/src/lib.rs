@@ -49,8 +49,7 @@ mod spherical_light;
 use glam::Vec3;
 use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
 use manylights_method::{
-    Error, Frame, ManyLightRun, Method, ParameterInfo, Parameters, Processor, Run, Visibility,
-    many_light_frame,
+    Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
 };
 
 use gather::CAPACITY;
@@ -67,7 +66,7 @@ const DIRECTIONS_A_STEP: u64 = 1 << 26;
 /// The method.
 pub struct Vsl;
 
-impl Method for Vsl {
+impl ManyLightMethod for Vsl {
     fn id(&self) -> &'static str {
         "vsl"
     }
@@ -76,46 +75,27 @@ impl Method for Vsl {
         "virtual spherical lights (Hašan et al. 2009)"
     }
 
-    fn processor(&self) -> Processor {
-        Processor::Gpu
-    }
-
     fn parameters(&self) -> &'static [ParameterInfo] {
         params::PARAMETERS
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        "lights"
-    }
-
-    fn visibility(&self) -> Visibility {
-        Visibility::Ignored
-    }
-
-    /// Half of the lights is half of the flux.
-    fn is_progressive(&self) -> bool {
-        false
-    }
-
     fn prepare<'a>(
         &self,
-        frame: &Frame<'a>,
+        frame: ManyLightFrame<'a>,
         parameters: &Parameters,
-    ) -> Result<Box<dyn Run + 'a>, Error> {
-        let (on_gpu, shadows) = many_light_frame(frame)?;
+    ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let (gpu, Frame { scene, camera, seed, .. }) = (on_gpu.gpu(), *frame);
-        let [width, height] = on_gpu.resolution();
-        let pixels = width * height;
+        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, shadows } = frame;
+        let gpu = on_gpu.gpu();
         let kinds = Reflectances::of_scene(scene);
-        let gather = gather::gather(gpu, pixels, camera.position, &kinds, &settings, shadows)?;
+        let gather = gather::gather(gpu, pixels, eye, &kinds, &settings, shadows)?;
         let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
-        let batches_a_step = (DIRECTIONS_A_STEP / directions_a_batch) as usize;
+        let batches_a_step = DIRECTIONS_A_STEP / directions_a_batch;
         let place = move |gather: &LightGather| {
             let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
             Ok((gather::batches(gather, &lights, seed)?, times))
         };
-        Ok(Box::new(ManyLightRun::new(on_gpu, gather, batches_a_step, place)))
+        Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
     }
 }
 

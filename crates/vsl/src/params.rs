@@ -2,11 +2,7 @@ use manylights_gpu::RadiusRule;
 use manylights_method::{ParameterInfo, ParameterKind, Parameters};
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
-    ParameterInfo {
-        name: "lights",
-        help: "cells of the reflective shadow maps, rounded up to whole square maps",
-        kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
-    },
+    ParameterInfo::LIGHTS,
     ParameterInfo {
         name: "samples",
         help: "directions for each light and pixel, of each sampling strategy",
@@ -17,16 +13,8 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         help: "0 = BRDF of the shaded point (the thesis), 1 = cone, 2 = both, balanced",
         kind: ParameterKind::Count { default: 2, min: 0, max: 2 },
     },
-    ParameterInfo {
-        name: "radius",
-        help: "0 = ten nearest lights, 1 = r₁ (thesis 5.9), 2 = r₂ (thesis 5.12), 3 = one metre",
-        kind: ParameterKind::Count { default: 2, min: 0, max: 3 },
-    },
-    ParameterInfo {
-        name: "scale",
-        help: "factor on all radii; the thesis advises 1 to 2; 0 = point lights",
-        kind: ParameterKind::Real { default: 1.0, min: 0.0, max: 1e6 },
-    },
+    ParameterInfo::RADIUS,
+    ParameterInfo::SCALE,
 ];
 
 /// How directions in the cone of a light are drawn.
@@ -53,6 +41,13 @@ pub struct Settings {
     pub radius: RadiusRule,
     /// Factor on all radii.
     pub scale: f32,
+}
+
+/// What `list methods` shows.
+impl Default for Settings {
+    fn default() -> Self {
+        Self::new(&Parameters::defaults(PARAMETERS))
+    }
 }
 
 impl Settings {

@@ -92,9 +92,7 @@ pub(crate) fn dielectric(roughness: f32) -> Brdf {
 }
 
 pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
-    let Brdf { diffuse, f0, lobe, alpha } = brdf;
-    let f90 = lobe.slot();
-    SurfaceRecord { position, alpha, normal, f90, diffuse, triangle: 0, f0, material: 0 }
+    SurfaceRecord::new(position, normal, brdf)
 }
 
 pub(crate) fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> SphericalLight {

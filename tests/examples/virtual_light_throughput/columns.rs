@@ -1,0 +1,91 @@
+//! What is measured.
+
+use manylights_gpu::{Error, Operations, Reflectances, operations};
+use manylights_hvl::{Form, Hvl, Lobes};
+use manylights_method::Method;
+use manylights_vpl::Vpl;
+use manylights_vsgl::Vsgl;
+use manylights_vsl::{Sampling, Vsl};
+
+const CELLS: [u32; 3] = [100, 400, 1600];
+const BANDS: [usize; 5] = [3, 5, 10, 15, 20];
+const SAMPLES: u32 = 25;
+
+/// Names of the columns, each once.
+pub(crate) const NAMES: [&str; 5] = ["vpl", "vsl", "vsgl", "hvl", "hvl form=1"];
+
+/// A method with its parameters.
+pub(crate) struct Column {
+    pub(crate) name: &'static str,
+    pub(crate) method: &'static dyn Method,
+    pub(crate) parameters: Vec<(&'static str, String)>,
+    pub(crate) cells: u32,
+    pub(crate) bands: Option<usize>,
+    /// Of a pair.
+    pub(crate) operations: Operations,
+}
+
+/// For a scene with glossy surfaces or without.
+pub(crate) fn columns(glossy: bool) -> Vec<Column> {
+    let kinds = Reflectances { specular: glossy, ..Reflectances::default() };
+    let column = |name, method, cells: u32, more: &[(&'static str, String)], operations| {
+        let parameters = more.iter().cloned().chain([("lights", cells.to_string())]).collect();
+        Column { name, method, parameters, cells, bands: None, operations }
+    };
+    let vsl = [("samples", SAMPLES.to_string()), ("sampling", "0".to_owned())];
+    let hvl = |name, form, cells, bands: usize| {
+        let more = [("bands", bands.to_string()), ("form", (form as u32).to_string())];
+        let operations = of_hvl(glossy, form, bands).expect("a shader");
+        Column { bands: Some(bands), ..column(name, &Hvl, cells, &more, operations) }
+    };
+    let points = of_vpl(&kinds).expect("a shader");
+    let spheres = of_vsl(&kinds).expect("a shader");
+    let gaussians = of_vsgl(&kinds).expect("a shader");
+    let mut columns = Vec::new();
+    columns.extend(CELLS.map(|cells| column("vpl", &Vpl, cells, &[], points)));
+    columns.extend(CELLS.map(|cells| column("vsl", &Vsl, cells, &vsl, spheres)));
+    columns.extend(CELLS.map(|cells| column("vsgl", &Vsgl, cells, &[], gaussians)));
+    for (name, form) in [("hvl", Form::Full), ("hvl form=1", Form::Zonal)] {
+        columns.extend(BANDS.map(|bands| hvl(name, form, 400, bands)));
+        columns.extend([100, 1600].map(|cells| hvl(name, form, cells, 5)));
+    }
+    columns
+}
+
+fn of_vpl(kinds: &Reflectances) -> Result<Operations, Error> {
+    let settings = manylights_vpl::Settings::default();
+    let shader = manylights_vpl::linked_shader(kinds, kinds.specular, false, &settings)?;
+    operations(&shader, "contribution", 1)
+}
+
+fn of_vsl(kinds: &Reflectances) -> Result<Operations, Error> {
+    let settings = manylights_vsl::Settings {
+        samples: SAMPLES,
+        sampling: Sampling::Brdf,
+        ..manylights_vsl::Settings::default()
+    };
+    let shader = manylights_vsl::linked_shader(kinds, kinds.specular, false, &settings)?;
+    operations(&shader, "contribution", SAMPLES.into())
+}
+
+/// A light on a glossy surface is two Gaussians.
+fn of_vsgl(kinds: &Reflectances) -> Result<Operations, Error> {
+    let settings = manylights_vsgl::Settings::default();
+    let shader = manylights_vsgl::linked_shader(kinds, kinds.specular, false, &settings)?;
+    let lobes = if kinds.specular { 2 } else { 1 };
+    operations(&shader, "contribution", 1).map(|of_lobe| of_lobe * lobes)
+}
+
+fn of_hvl(glossy: bool, form: Form, bands: usize) -> Result<Operations, Error> {
+    let settings = manylights_hvl::Settings { form, bands, ..manylights_hvl::Settings::default() };
+    // As in `trio`, which has a coloured metal.
+    let lobes = Lobes {
+        receivers: glossy,
+        lights: glossy,
+        colored: glossy,
+        exact_fresnel: false,
+        measured: false,
+    };
+    let shader = manylights_hvl::linked_shader(lobes, false, &settings)?;
+    operations(&shader, "contribution", 1)
+}
