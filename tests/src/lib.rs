@@ -1,10 +1,16 @@
 //! What the tests of this package share: pictures by any method, and their references.
 
+use std::sync::LazyLock;
+
 use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
-use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_method::{Frame, Method, Parameters, Run, Transport, Visibility};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer::{Reference, Settings};
 use manylights_scene::Scene;
+
+/// The adapter. It keeps kernels, which take long to compile.
+pub static GPU: LazyLock<Gpu> =
+    LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
 
 /// A scene on the adapter, seen by its first camera.
 pub struct Stage {
@@ -17,8 +23,7 @@ pub struct Stage {
 impl Stage {
     /// At this width and height.
     pub fn new(scene: Scene, resolution: [u32; 2]) -> Self {
-        let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
-        let on_gpu = GpuFrame::new(&gpu, &scene, &scene.cameras[0], resolution);
+        let on_gpu = GpuFrame::new(&GPU, &scene, &scene.cameras[0], resolution);
         Self { on_gpu: on_gpu.expect("the scene fits"), scene }
     }
 
@@ -40,6 +45,17 @@ impl Stage {
         visibility: Visibility,
         seed: u64,
     ) -> RadianceImage {
+        self.run(method, parameters, visibility, seed).resolve().expect("a picture")
+    }
+
+    /// The same, done but not read back.
+    pub fn run(
+        &self,
+        method: &dyn Method,
+        parameters: &[(&str, &str)],
+        visibility: Visibility,
+        seed: u64,
+    ) -> Box<dyn Run + '_> {
         let frame = Frame {
             scene: &self.scene,
             camera: &self.scene.cameras[0],
@@ -52,7 +68,7 @@ impl Stage {
         let parameters = parameters.expect("in range");
         let mut run = method.prepare(&frame, &parameters).expect("the method renders the scene");
         while !run.step().expect("a step").finished() {}
-        run.resolve().expect("a picture")
+        run
     }
 
     /// The same by tracing paths.

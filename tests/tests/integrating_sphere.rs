@@ -84,7 +84,7 @@ fn spheres_by_harmonics() {
 
 /// The closed form of the zonal one counts all of a sphere that is above the horizon, which on concave
 /// surfaces is more than its centre's cosine says; the expansion of the full form and H clip it twice.
-/// The excess is of first order in r, as that of samples: down to a quarter with 16 times the lights.
+/// The excess falls with the radius: to 0.36 to 0.38 with 16 times the lights, a quarter of the radius.
 #[test]
 fn spheres_by_zonal_harmonics() {
     for radius in ["0", "1", "2"] {
@@ -93,8 +93,8 @@ fn spheres_by_zonal_harmonics() {
             mean(&deviations(32, &Hvl, &parameters))
         });
         println!("radius {radius}: {few:+.2e}, {many:+.2e}");
-        assert!((2.2..5.0).contains(&(few / many)), "radius {radius}: {few}, {many}");
-        assert!(many.abs() < 0.02, "radius {radius}: {many}");
+        assert!(many > 0.0 && many < 0.02, "radius {radius}: {many}");
+        assert!((2.4..3.2).contains(&(few / many)), "radius {radius}: {few}, {many}");
     }
 }
 

@@ -12,10 +12,10 @@ use wgpu::naga::{
 
 use crate::Error;
 
-/// Operations on single floats.
+/// Operations on single floats; those on whole numbers and matrices are not counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
-    /// Additions, subtractions, multiplications, minima, maxima.
+    /// Additions, subtractions, multiplications; minima, maxima, absolute values, rounding; unpacking.
     pub simple: u64,
     /// Divisions, roots, powers, exponentials, trigonometry.
     pub special: u64,

@@ -16,13 +16,11 @@ use rayon::prelude::*;
 
 use crate::cache::Cache;
 use crate::lobe_quadrature::{Fixed, LobeQuadrature};
-use crate::{Damping, LobeShape, diffuse, lobes};
+use crate::lobes::NODES;
+use crate::{Damping, LobeShape, diffuse};
 
 /// Angles between primary light and normal: 0°, 1°, … 89°. At 90° the reflectance has no bound.
 pub const ANGLES: usize = 90;
-
-/// More than for the receivers' lobes: without the cosine the lobe ends at the horizon in a step.
-const NODES: [usize; 2] = [384, 192];
 
 /// The lobes of one shape.
 #[derive(Debug)]
@@ -39,17 +37,24 @@ pub fn terms(bands: usize) -> impl Iterator<Item = (usize, usize)> {
 impl EmissionTable {
     /// The table for a shape and a number of bands; made once in a process.
     pub fn of(shape: impl Into<LobeShape>, bands: usize) -> Arc<Self> {
-        let shape = shape.into();
-        static TABLES: Cache<EmissionTable> = Cache::new();
-        TABLES.get((shape, bands, Damping::None), || Self::integrate(shape, bands))
+        static TABLES: Cache<Vec<Arc<EmissionTable>>> = Cache::new();
+        let (first, place) = shape.into().place();
+        let all = TABLES.get((first, bands, Damping::None), || {
+            Self::integrate(first, bands).into_iter().map(Arc::new).collect()
+        });
+        all[place].clone()
     }
 
-    fn integrate(shape: LobeShape, bands: usize) -> Self {
-        // Kinks of its interpolation limit those of a measurement, and evaluating it takes long.
-        let nodes = if shape.is_measured() { lobes::NODES } else { NODES };
-        let (basis, lobe) = (Basis::new(bands), LobeQuadrature::new(shape, nodes, Fixed::Light));
-        let row = |degrees: usize| project(&basis, &lobe, (degrees as f64).to_radians());
-        Self { values: (0..ANGLES).into_par_iter().flat_map_iter(row).collect() }
+    /// Those of all shapes of a reflectance.
+    fn integrate(shape: LobeShape, bands: usize) -> Vec<Self> {
+        let (basis, lobe) = (Basis::new(bands), LobeQuadrature::new(shape, NODES, Fixed::Light));
+        let row = |degrees: usize| {
+            let mut row = project(&basis, &lobe, (degrees as f64).to_radians());
+            keep_flux(shape, bands, &mut row.lobes, row.flux);
+            row.lobes
+        };
+        let lobes: Vec<_> = (0..ANGLES).into_par_iter().flat_map_iter(row).collect();
+        shape.pairs(&lobes).into_iter().map(|values| Self { values }).collect()
     }
 
     /// All rows.
@@ -63,34 +68,55 @@ impl EmissionTable {
     }
 }
 
-/// ∫ f(v, l) Y_lm(l) dl over the sphere, f mirrored in the horizon, times what keeps the flux of A + B,
-/// or of each channel of a measurement:
-/// a few bands of a lobe near the horizon put most of it where the cosine is large, up to 23 times its
-/// flux, and those of one about the normal half of it.
-fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 2]> {
+/// One row before its flux is kept.
+struct Row {
+    lobes: Vec<[f64; 3]>,
+    /// ∫ f(v, l) n·l dl of each scalar lobe.
+    flux: [f64; 3],
+}
+
+/// ∫ f(v, l) Y_lm(l) dl over the sphere, f mirrored in the horizon.
+fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Row {
     let bands = basis.bands();
     let terms: Vec<_> = terms(bands).collect();
-    let mut sums = vec![[0.0; 2]; terms.len()];
+    let mut row = Row { lobes: vec![[0.0; 3]; terms.len()], flux: [0.0; 3] };
     let mut harmonics = vec![0.0; count(bands)];
-    let mut flux = [0.0; 2];
-    for (direction, [a, b]) in lobe.reflected(DVec3::new(view.sin(), 0.0, view.cos())) {
+    for (direction, weights) in lobe.reflected(DVec3::new(view.sin(), 0.0, view.cos())) {
         basis.evaluate(direction.to_array(), &mut harmonics);
-        flux[0] += direction.z * a;
-        flux[1] += direction.z * b;
-        for (sum, &(l, m)) in sums.iter_mut().zip(&terms) {
-            let value = 2.0 * harmonics[index(l, m as isize)];
-            sum[0] += value * a;
-            sum[1] += value * b;
+        let add = |sums: &mut [f64; 3], value: f64| {
+            for (sum, weight) in sums.iter_mut().zip(weights) {
+                *sum += value * weight;
+            }
+        };
+        add(&mut row.flux, direction.z);
+        for (sums, &(l, m)) in row.lobes.iter_mut().zip(&terms) {
+            add(sums, 2.0 * harmonics[index(l, m as isize)]);
         }
     }
+    row
+}
+
+/// Gives the expansion the flux of the lobe: a few bands of a lobe near the horizon put most of it where
+/// the cosine is large, up to 23 times its flux, and those of one about the normal half of it. One factor
+/// for f0 + f90, but one for each channel of a measurement, which may be black.
+fn keep_flux(shape: LobeShape, bands: usize, lobes: &mut [[f64; 3]], flux: [f64; 3]) {
     let mut cosine = vec![0.0; bands];
     clamped_cosine::scales(&mut cosine);
-    let expanded = [0, 1].map(|k| {
-        let zonal = sums.iter().zip(&terms).filter(|(_, (_, m))| *m == 0);
-        zonal.map(|(pair, &(l, _))| pair[k] * cosine[l] * diffuse::addition(l).sqrt()).sum()
+    let expanded = [0, 1, 2].map(|k| -> f64 {
+        let zonal = lobes.iter().zip(terms(bands)).filter(|(_, (_, m))| *m == 0);
+        zonal.map(|(sums, (l, _))| sums[k] * cosine[l] * diffuse::addition(l).sqrt()).sum()
     });
-    let [a, b] = lobe.kept(flux, expanded);
-    sums.into_iter().map(|pair| [a * pair[0], b * pair[1]]).collect()
+    let factor = |flux: f64, expanded: f64| if flux > 0.0 { flux / expanded } else { 1.0 };
+    let factors = if shape.is_measured() {
+        [0, 1, 2].map(|k| factor(flux[k], expanded[k]))
+    } else {
+        [factor(flux[0] + flux[1], expanded[0] + expanded[1]); 3]
+    };
+    for sums in lobes {
+        for (sum, factor) in sums.iter_mut().zip(factors) {
+            *sum *= factor;
+        }
+    }
 }
 
 /// The row for a light: its angle in whole degrees.

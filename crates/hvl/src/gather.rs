@@ -19,7 +19,8 @@ use crate::{Form, Horizon, LobeShape, Settings, diffuse, lobe_wgsl};
 /// Spheres a batch, as `shaders/gather.wesl` declares its array.
 pub(crate) const CAPACITY: usize = 512;
 
-/// Lanes, one pixel each: at ten bands a pixel's reflectance fills 55 to 110 registers.
+/// Lanes, one pixel each: at ten bands a pixel's reflectance fills 55 registers, of colours and
+/// measurements two and three times that.
 const PIXELS_A_GROUP: u32 = 64;
 
 /// The lobes that kernels must know.
@@ -119,6 +120,24 @@ impl Materials {
         let table = self.shapes.partition_point(|&other| rounded_shape(other) < shape);
         let row = table * emission::ANGLES + emission::degrees(&sphere.light);
         (row * emission::terms(bands).count()) as u32
+    }
+
+    /// Why these settings cannot show them, if so.
+    pub(crate) fn declined(&self, settings: &Settings) -> Option<&'static str> {
+        match (self.measured, settings) {
+            (true, Settings { form: Form::Zonal, .. }) => {
+                Some("one circular lobe is no measured material: set form = 0")
+            }
+            (true, Settings { emission_bands: 0, .. }) => {
+                Some("measured materials emit by expansion alone: set emission_bands ≥ 1")
+            }
+            _ => None,
+        }
+    }
+
+    /// Scalar lobes that a pixel is multiplied with.
+    pub(crate) fn channels(&self) -> usize {
+        if self.measured { 3 } else { 1 + usize::from(self.colored) }
     }
 
     fn lobes(&self, settings: &Settings) -> [Lobes; 2] {

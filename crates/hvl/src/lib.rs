@@ -22,8 +22,9 @@
 //! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`]); twice where
 //!   some f0 has a colour. One table serves all materials of one roughness, textured ones included.
 //!   With the exact Fresnel term of a dielectric there is one a roughness and index.
-//! - Measured: a lobe for each channel, in two tables, by quadrature of the measurement's own interpolation, and for a
-//!   light's emission. Neither the zonal form nor `emission_bands` = 0 knows them.
+//! - Measured: a lobe for each channel, in two tables, by quadrature of the measurement's own
+//!   interpolation; and the same for what lights emit. Neither the zonal form nor `emission_bands` = 0
+//!   knows measurements.
 //! - A window damps the bands of both where it is asked for; it is part of the tables.
 //!
 //! # Zonal form (5.2.7)
@@ -70,7 +71,7 @@ mod spherical_light;
 pub mod zonal;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
+use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
 use manylights_harmonics::even_count;
 use manylights_method::{
     Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
@@ -93,33 +94,25 @@ const PRODUCTS_A_STEP: u64 = 1 << 31;
 pub struct Hvl;
 
 impl ManyLightMethod for Hvl {
-    fn id(&self) -> &'static str {
-        "hvl"
-    }
+    const ID: &'static str = "hvl";
+    const TITLE: &'static str = "harmonics virtual lights (Mézières et al. 2022)";
+    const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
 
-    fn title(&self) -> &'static str {
-        "harmonics virtual lights (Mézières et al. 2022)"
-    }
-
-    fn parameters(&self) -> &'static [ParameterInfo] {
-        params::PARAMETERS
-    }
-
-    fn prepare<'a>(
-        &self,
+    fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, shadows } = frame;
+        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
-        let measured = !Reflectances::of_scene(scene).measured.is_empty();
-        if let Some(reason) = measured.then(|| settings.unmeasured()).flatten() {
+        let materials = Materials::of_scene(scene);
+        if let Some(reason) = materials.declined(&settings) {
             return Err(Error::Declined(reason.into()));
         }
-        let materials = Materials::of_scene(scene);
+        let shadows = frame.shadows()?;
         let gather = gather::gather(gpu, pixels, eye, &materials, &settings, shadows)?;
-        let products_a_batch = u64::from(pixels) * (CAPACITY * even_count(settings.bands)) as u64;
+        let products_a_pair = even_count(settings.bands) * materials.channels();
+        let products_a_batch = u64::from(pixels) * (CAPACITY * products_a_pair) as u64;
         let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
         let place = move |gather: &LightGather| {
             let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;

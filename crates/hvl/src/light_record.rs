@@ -84,10 +84,7 @@ impl GlossyLight {
 
 /// The shape of a light on a surface of this shape.
 pub(crate) fn rounded_shape(shape: LobeShape) -> LobeShape {
-    match shape.brdf() {
-        Brdf { lobe: Lobe::Measured(_), .. } => shape,
-        brdf => rounded_brdf(brdf).into(),
-    }
+    if shape.is_measured() { shape } else { rounded_brdf(shape.brdf()).into() }
 }
 
 /// A measurement's is that of its table.
@@ -117,7 +114,7 @@ fn unpack_direction(packed: u32) -> Vec3 {
 }
 
 /// Eight values of 0 … 1 in `unpack2x16unorm`; the last one is 1/index of an exact Fresnel term, 0 for
-/// Schlick's, and the smallest step of a measurement, whose other lobe is black.
+/// Schlick's, and 1/65535 marks a measurement, whose Lambertian lobe is stored as black.
 fn pack_reflectance(brdf: &Brdf) -> [u32; 4] {
     let [d, f] = match brdf.lobe {
         Lobe::Measured(_) => [Vec3::ZERO, Vec3::ONE],

@@ -1,20 +1,19 @@
-//! Directions and weights for integrals over the lobes of one table.
+//! Directions and weights for integrals over the scalar lobes of one reflectance.
 
 use glam::DVec3;
-use manylights_scene::DBrdf;
+use manylights_scene::{DBrdf, Lobe};
 
 use crate::LobeShape;
-use crate::half_vectors::{HalfVector, half_vectors, reflected};
+use crate::half_vectors::{HalfVectors, reflected};
 
-/// Width of the distribution whose half vectors stand for those of a measurement: it reaches a tenth of a
-/// degree from the mirrored direction, and the horizon.
-const MEASURED_WIDTH: f64 = 0.2;
+/// The widest distribution whose half vectors stand for those of a measurement: they reach the horizon.
+const WIDEST: f64 = 0.2;
 
 /// For one shape.
 pub(crate) struct LobeQuadrature {
     shape: LobeShape,
     brdf: DBrdf,
-    half_vectors: Vec<HalfVector>,
+    half_vectors: HalfVectors,
     fixed: Fixed,
 }
 
@@ -29,44 +28,37 @@ impl LobeQuadrature {
     /// `nodes` in the polar angle of the half vector, and in half a turn.
     pub(crate) fn new(shape: LobeShape, nodes: [usize; 2], fixed: Fixed) -> Self {
         let brdf = DBrdf::from(shape.brdf());
-        let alpha = if shape.is_measured() { MEASURED_WIDTH } else { brdf.alpha };
-        Self { shape, brdf, half_vectors: half_vectors(alpha, nodes), fixed }
+        // That of a measurement is an estimate.
+        let alpha = if shape.is_measured() { brdf.alpha.min(WIDEST) } else { brdf.alpha };
+        Self { shape, brdf, half_vectors: HalfVectors::new(alpha, nodes), fixed }
     }
 
-    /// Directions above the horizon with weights for the two lobes of a table, without their cosine: for
-    /// f0 and for f90, or of a measurement's channels. `from`, the fixed direction, lies in the xz-plane,
-    /// and what is integrated does not know y from −y.
-    pub(crate) fn reflected(&self, from: DVec3) -> Vec<(DVec3, [f64; 2])> {
-        let one = |node: &HalfVector| {
-            let (direction, ratio) = reflected(from, node.h)?;
-            let weights = if self.shape.is_measured() {
-                self.measured(from, direction).map(|value| value * node.solid_angle * ratio)
+    /// Directions above the horizon with weights for the scalar lobes, without their cosine: for f0, for
+    /// f90, and nothing; or red, green and blue of a measurement. `from`, the fixed direction, lies in
+    /// the xz-plane, and what is integrated does not know y from −y.
+    pub(crate) fn reflected(&self, from: DVec3) -> impl Iterator<Item = (DVec3, [f64; 3])> {
+        self.half_vectors.above_horizon(from).map(move |node| {
+            let (direction, ratio) = reflected(from, node.h);
+            // Rounding may put it below.
+            let direction = direction.with_z(direction.z.max(0.0));
+            let weights = if let Lobe::Measured(_) = self.brdf.lobe {
+                self.measured(from, direction) * (node.solid_angle * ratio)
             } else {
                 let visibility = self.brdf.visibility(from.z, direction.z);
                 let flux = node.density * visibility * ratio / node.h.z;
-                self.shape.fresnel(from.dot(node.h)).map(|fresnel| flux * fresnel)
+                let [f0, f90] = self.shape.fresnel(from.dot(node.h));
+                DVec3::new(f0, f90, 0.0) * flux
             };
-            Some((direction, weights))
-        };
-        self.half_vectors.iter().filter_map(one).collect()
+            (direction, weights.to_array())
+        })
     }
 
-    /// The channels of a measurement, summed over both sides of the plane of incidence: measurements are
-    /// not quite alike on both.
-    fn measured(&self, from: DVec3, direction: DVec3) -> [f64; 2] {
+    /// Summed over both sides of the plane of incidence: measurements are not quite alike on both.
+    fn measured(&self, from: DVec3, direction: DVec3) -> DVec3 {
         let sides = [direction, direction * DVec3::new(1.0, -1.0, 1.0)].map(|w| match self.fixed {
             Fixed::View => self.brdf.eval(DVec3::Z, from, w),
             Fixed::Light => self.brdf.eval(DVec3::Z, w, from),
         });
-        self.shape.channels(sides[0] + sides[1])
-    }
-
-    /// What turns the flux of an expansion of both lobes into the flux of the lobes: one factor for A + B,
-    /// but one for each channel of a measurement, which may be black.
-    pub(crate) fn kept(&self, flux: [f64; 2], expanded: [f64; 2]) -> [f64; 2] {
-        if !self.shape.is_measured() {
-            return [(flux[0] + flux[1]) / (expanded[0] + expanded[1]); 2];
-        }
-        [0, 1].map(|k| if flux[k] > 0.0 { flux[k] / expanded[k] } else { 1.0 })
+        sides[0] + sides[1]
     }
 }

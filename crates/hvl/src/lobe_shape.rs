@@ -1,4 +1,4 @@
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use manylights_scene::{Brdf, DBrdf, Lobe};
 
 /// What the table of a specular lobe depends on beside bands and window: materials of one shape share it,
@@ -40,7 +40,7 @@ impl LobeShape {
     }
 
     pub(crate) fn is_measured(self) -> bool {
-        matches!(self.brdf().lobe, Lobe::Measured(_))
+        self.slot <= -Lobe::MAX_INDEX
     }
 
     /// A lobe of this shape and no reflectance; of a measurement, the measurement.
@@ -54,9 +54,16 @@ impl LobeShape {
         [self.alpha, self.slot]
     }
 
-    /// What a measurement's table holds of a colour: red and green, or blue and nothing.
-    pub(crate) fn channels(self, color: DVec3) -> [f64; 2] {
-        if self.blue { [color.z, 0.0] } else { [color.x, color.y] }
+    /// The first shape of the reflectance, and which of its shapes this is.
+    pub(crate) fn place(self) -> (Self, usize) {
+        (Self { blue: false, ..self }, self.blue.into())
+    }
+
+    /// Scalar lobes (f0 and f90; red, green and blue) as the tables of all shapes hold them.
+    pub(crate) fn pairs(self, lobes: &[[f64; 3]]) -> Vec<Vec<[f64; 2]>> {
+        let first = lobes.iter().map(|&[a, b, _]| [a, b]).collect();
+        let blue = || lobes.iter().map(|&[.., c]| [c, 0.0]).collect();
+        if self.is_measured() { vec![first, blue()] } else { vec![first] }
     }
 
     /// Its numbers as bits.

@@ -42,10 +42,13 @@ impl LobeTable {
     /// The table for a shape, a number of bands and a window; made once in a process.
     pub fn of(shape: impl Into<LobeShape>, bands: usize, damping: Damping) -> Arc<Self> {
         let shape = shape.into();
-        static PLAIN: Cache<LobeTable> = Cache::new();
+        static PLAIN: Cache<Vec<Arc<LobeTable>>> = Cache::new();
         static WINDOWED: Cache<LobeTable> = Cache::new();
-        let plain =
-            PLAIN.get((shape, bands, Damping::None), || Self::integrate(shape, bands, NODES));
+        let (first, place) = shape.place();
+        let all = PLAIN.get((first, bands, Damping::None), || {
+            Self::integrate(first, bands, NODES).into_iter().map(Arc::new).collect()
+        });
+        let plain = all[place].clone();
         if damping == Damping::None {
             return plain;
         }
@@ -53,13 +56,14 @@ impl LobeTable {
         WINDOWED.get((shape, bands, damping), || plain.damped(damping, colors))
     }
 
-    /// By quadrature; `nodes` in the polar angle of the half vector, and in half a turn.
-    pub fn integrate(shape: impl Into<LobeShape>, bands: usize, nodes: [usize; 2]) -> Self {
-        let (basis, lobe) =
-            (Basis::new(bands), LobeQuadrature::new(shape.into(), nodes, Fixed::View));
+    /// Those of all shapes of a reflectance ([`LobeShape::of_measurement`]; one, if it is none), by
+    /// quadrature; `nodes` in the polar angle of the half vector, and in half a turn.
+    pub fn integrate(shape: impl Into<LobeShape>, bands: usize, nodes: [usize; 2]) -> Vec<Self> {
+        let shape = shape.into();
+        let (basis, lobe) = (Basis::new(bands), LobeQuadrature::new(shape, nodes, Fixed::View));
         let row = |degrees: usize| project(&basis, &lobe, (degrees as f64).to_radians());
-        let values = (0..ANGLES).into_par_iter().flat_map_iter(row).collect();
-        Self { bands, values }
+        let lobes: Vec<_> = (0..ANGLES).into_par_iter().flat_map_iter(row).collect();
+        shape.pairs(&lobes).into_iter().map(|values| Self { bands, values }).collect()
     }
 
     /// The same under a window, for each row the strongest of those for some reflectances.
@@ -108,11 +112,11 @@ pub(crate) fn interpolated(values: &[[f64; 2]], radians: f64) -> Vec<[f64; 2]> {
 }
 
 /// ∫ f(v, l) n·l Y_lm(l) dl; normal z, view in the xz-plane.
-fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 2]> {
+fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 3]> {
     let bands = basis.bands();
-    let mut sums = vec![[0.0; 2]; even_count(bands)];
+    let mut sums = vec![[0.0; 3]; even_count(bands)];
     let mut harmonics = vec![0.0; count(bands)];
-    for (direction, [a, b]) in lobe.reflected(DVec3::new(view.sin(), 0.0, view.cos())) {
+    for (direction, [a, b, c]) in lobe.reflected(DVec3::new(view.sin(), 0.0, view.cos())) {
         basis.evaluate(direction.to_array(), &mut harmonics);
         for l in 0..bands {
             for m in 0..=l {
@@ -120,6 +124,7 @@ fn project(basis: &Basis<f64>, lobe: &LobeQuadrature, view: f64) -> Vec<[f64; 2]
                 let sum = &mut sums[even_index(l, m)];
                 sum[0] += value * a;
                 sum[1] += value * b;
+                sum[2] += value * c;
             }
         }
     }

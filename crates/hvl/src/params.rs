@@ -97,15 +97,6 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Why these settings cannot show a measured reflectance, if so.
-    pub(crate) fn unmeasured(&self) -> Option<&'static str> {
-        if self.form == Form::Zonal {
-            return Some("one circular lobe is no measured material: set form = 0");
-        }
-        let unexpanded = self.emission_bands == 0;
-        unexpanded.then_some("measured materials emit by expansion alone: set emission_bands ≥ 1")
-    }
-
     pub(crate) fn new(parameters: &Parameters) -> Self {
         Self {
             lights: parameters.count("lights"),

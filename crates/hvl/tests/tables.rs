@@ -77,8 +77,8 @@ fn direction(degrees: usize) -> DVec3 {
 fn the_quadrature_has_converged() {
     let bands = 20;
     for alpha in [9e-4_f32, 0.01, 0.04, 0.25] {
-        let fine = LobeTable::integrate(alpha, bands, NODES.map(|nodes| 2 * nodes));
-        let coarse = LobeTable::integrate(alpha, bands, NODES);
+        let table = |nodes| LobeTable::integrate(alpha, bands, nodes).swap_remove(0);
+        let (fine, coarse) = (table(NODES.map(|nodes| 2 * nodes)), table(NODES));
         let worst = |rows: std::ops::Range<usize>| {
             let range = rows.start * even_count(bands)..rows.end * even_count(bands);
             let pairs = fine.values()[range.clone()].iter().zip(&coarse.values()[range]);

@@ -16,20 +16,17 @@ use crate::{
 /// half of the lights is half of the flux, so that only the last picture estimates anything.
 pub trait ManyLightMethod: Sync {
     /// As [`Method::id`].
-    fn id(&self) -> &'static str;
-
+    const ID: &'static str;
     /// As [`Method::title`].
-    fn title(&self) -> &'static str;
+    const TITLE: &'static str;
+    /// As [`Method::parameters`], [`ParameterInfo::LIGHTS`] among them.
+    const PARAMETERS: &'static [ParameterInfo];
 
-    /// As [`Method::parameters`], `lights` among them.
-    fn parameters(&self) -> &'static [ParameterInfo];
-
-    /// As [`Method::prepare`].
+    /// As [`Method::prepare`], for a frame that virtual lights can render.
     ///
     /// # Errors
     /// [`Error::Declined`] with a reason where the scene is not the method's.
-    fn prepare<'a>(
-        &self,
+    fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
     ) -> Result<ManyLightRun<'a>, Error>;
@@ -37,11 +34,11 @@ pub trait ManyLightMethod: Sync {
 
 impl<M: ManyLightMethod> Method for M {
     fn id(&self) -> &'static str {
-        ManyLightMethod::id(self)
+        M::ID
     }
 
     fn title(&self) -> &'static str {
-        ManyLightMethod::title(self)
+        M::TITLE
     }
 
     fn processor(&self) -> Processor {
@@ -49,7 +46,7 @@ impl<M: ManyLightMethod> Method for M {
     }
 
     fn parameters(&self) -> &'static [ParameterInfo] {
-        ManyLightMethod::parameters(self)
+        M::PARAMETERS
     }
 
     fn cost_parameter(&self) -> &'static str {
@@ -69,8 +66,7 @@ impl<M: ManyLightMethod> Method for M {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        let frame = ManyLightFrame::new(frame)?;
-        Ok(Box::new(ManyLightMethod::prepare(self, frame, parameters)?))
+        Ok(Box::new(M::start(ManyLightFrame::new(frame)?, parameters)?))
     }
 }
 
@@ -84,10 +80,9 @@ pub struct ManyLightFrame<'a> {
     pub seed: u64,
     /// As [`Frame::gpu`].
     pub on_gpu: &'a GpuFrame,
-    /// Of the picture.
+    /// Number of pixels.
     pub pixels: u32,
-    /// The shadow rays that the transport wants.
-    pub shadows: Option<Shadows>,
+    visibility: Visibility,
 }
 
 impl<'a> ManyLightFrame<'a> {
@@ -106,12 +101,19 @@ impl<'a> ManyLightFrame<'a> {
         let Some(on_gpu) = gpu else {
             return Err(Error::Failed("runs on the adapter and was given none".into()));
         };
-        let shadows = match visibility {
-            Visibility::Traced => Some(Shadows::new(on_gpu, scene)?),
-            Visibility::Ignored => None,
-        };
         let pixels = on_gpu.resolution().into_iter().product();
-        Ok(Self { scene, eye: camera.position, seed, on_gpu, pixels, shadows })
+        Ok(Self { scene, eye: camera.position, seed, on_gpu, pixels, visibility })
+    }
+
+    /// The shadow rays that the transport wants.
+    ///
+    /// # Errors
+    /// Where the adapter cannot hold the scene's hierarchy.
+    pub fn shadows(&self) -> Result<Option<Shadows>, Error> {
+        match self.visibility {
+            Visibility::Traced => Ok(Some(Shadows::new(self.on_gpu, self.scene)?)),
+            Visibility::Ignored => Ok(None),
+        }
     }
 }
 

@@ -39,7 +39,7 @@ pub struct ParameterInfo {
     pub kind: ParameterKind,
 }
 
-/// Those that virtual lights have in common.
+/// Those that several kinds of virtual lights have.
 impl ParameterInfo {
     /// The lights of a picture.
     pub const LIGHTS: Self = Self {
@@ -48,14 +48,14 @@ impl ParameterInfo {
         kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
     };
 
-    /// Where radii of spheres come from.
+    /// Where radii come from, of lights that are spheres.
     pub const RADIUS: Self = Self {
         name: "radius",
         help: "0 = ten nearest lights, 1 = r₁ (thesis 5.9), 2 = r₂ (thesis 5.12), 3 = one metre",
         kind: ParameterKind::Count { default: 2, min: 0, max: 3 },
     };
 
-    /// Of radii of spheres.
+    /// Of radii, of lights that are spheres.
     pub const SCALE: Self = Self {
         name: "scale",
         help: "factor on all radii; the thesis advises 1 to 2; 0 = point lights",

@@ -38,27 +38,19 @@ const PAIRS_A_STEP: u64 = 1 << 28;
 pub struct Vpl;
 
 impl ManyLightMethod for Vpl {
-    fn id(&self) -> &'static str {
-        "vpl"
-    }
+    const ID: &'static str = "vpl";
+    const TITLE: &'static str = "virtual point lights (Keller 1997; RSM placement)";
+    const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
 
-    fn title(&self) -> &'static str {
-        "virtual point lights (Keller 1997; RSM placement)"
-    }
-
-    fn parameters(&self) -> &'static [ParameterInfo] {
-        params::PARAMETERS
-    }
-
-    fn prepare<'a>(
-        &self,
+    fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, shadows } = frame;
+        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
         let kinds = Reflectances::of_scene(scene);
+        let shadows = frame.shadows()?;
         let gather = gather::gather(gpu, pixels, eye, &kinds, &settings, shadows)?;
         let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {

@@ -46,17 +46,15 @@
 //! - As in `manylights-vpl`: exact solid angles of texels, the emitting cosine of the geometric normal.
 //!
 //! Limits: one circular lobe a component, of which a measured material knows none: scenes with such are
-//! declined. A Gaussian has no horizon: 9.2 % of a diffuse lobe's power
-//! goes behind its surface, and a plane receives 4.6 % of its exitance from the lights on itself, so
-//! that the integrating sphere is too dark by 11 % with 150 lights, 6 % with 9600 and 4.6 % in the limit
-//! (`tests/tests/vsgl_truths.rs`). Groups that straddle an edge of depth have a large s² and a mean place
+//! declined. A Gaussian has no horizon: 9.2 % of a diffuse lobe's power goes behind its surface, and a
+//! plane receives 4.6 % of its exitance from the lights on itself, so that the integrating sphere is too
+//! dark by 11 % with 150 lights, 6 % with 9600 and 4.6 % in the limit
+//! (`tests/tests/integrating_sphere.rs`). Groups that straddle an edge of depth have a large s² and a mean place
 //! off the surfaces, from which they leak light. Lights are read back, as those of other methods are: 96
 //! bytes and 32 for the centre.
 //!
-//! Operations, the limit to measure against, counted in the shaders, for one pixel and lobe: the product
-//! of the Gaussians some 50, the diffuse integral 85; a GGX receiver adds 40 for the coupling and 150
-//! for the lobe by filtered normals or 60 by the anisotropic Gaussian. Lights without specular power
-//! have one lobe, others two.
+//! Lights without specular power have one lobe, others two. What a pair of light and pixel takes:
+//! `tests/examples/virtual_light_throughput`.
 
 mod albedo;
 mod gather;
@@ -86,25 +84,16 @@ const PAIRS_A_STEP: u64 = 1 << 26;
 pub struct Vsgl;
 
 impl ManyLightMethod for Vsgl {
-    fn id(&self) -> &'static str {
-        "vsgl"
-    }
+    const ID: &'static str = "vsgl";
+    const TITLE: &'static str = "virtual spherical Gaussian lights (Tokuyoshi 2015)";
+    const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
 
-    fn title(&self) -> &'static str {
-        "virtual spherical Gaussian lights (Tokuyoshi 2015)"
-    }
-
-    fn parameters(&self) -> &'static [ParameterInfo] {
-        params::PARAMETERS
-    }
-
-    fn prepare<'a>(
-        &self,
+    fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, shadows } = frame;
+        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
         let materials = Materials::of_scene(scene);
         if !materials.kinds.measured.is_empty() {
@@ -113,6 +102,7 @@ impl ManyLightMethod for Vsgl {
                     .into(),
             ));
         }
+        let shadows = frame.shadows()?;
         let gather = gather::gather(gpu, pixels, eye, &materials.kinds, &settings, shadows)?;
         let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {

@@ -29,15 +29,12 @@
 //! - As in `manylights-vpl`: exact solid angles of cells, the emitting cosine of the geometric normal.
 //! - Lights of radius 0 are points under every sampling.
 //!
-//! Operations, the limit to measure against, counted in the shaders: for one light and pixel some 70
-//! to set up (with a GGX light 115), unless the whole cone is below a horizon; for one sample of the
-//! cone 40 on Lambertian surfaces, 90 with a GGX receiver, 155 with a GGX light too; a sample of the
-//! lobes takes 30 (Lambertian) to 60 before it is known to meet the cone, and then as much as one of
-//! the cone. What does not depend on the pixel (intensity, the light's frame and its half of the Smith
-//! term, its key) is in the light's record; what does not depend on the light is kept by the lane.
+//! What does not depend on the pixel (intensity, the light's frame and its half of the Smith term, its
+//! key) is in the light's record; what does not depend on the light is kept by the lane. What a pair of
+//! light and pixel takes: `tests/examples/virtual_light_throughput`.
 //!
 //! Bias: spheres darken concave surfaces, since a part of a wide cone is below one of the horizons; on
-//! the integrating sphere by 4/(3π) r/R (`tests/tests/vsl_truths.rs`).
+//! the integrating sphere by 4/(3π) r/R (`tests/tests/integrating_sphere.rs`).
 
 mod gather;
 mod light_record;
@@ -67,27 +64,19 @@ const DIRECTIONS_A_STEP: u64 = 1 << 26;
 pub struct Vsl;
 
 impl ManyLightMethod for Vsl {
-    fn id(&self) -> &'static str {
-        "vsl"
-    }
+    const ID: &'static str = "vsl";
+    const TITLE: &'static str = "virtual spherical lights (Hašan et al. 2009)";
+    const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
 
-    fn title(&self) -> &'static str {
-        "virtual spherical lights (Hašan et al. 2009)"
-    }
-
-    fn parameters(&self) -> &'static [ParameterInfo] {
-        params::PARAMETERS
-    }
-
-    fn prepare<'a>(
-        &self,
+    fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, shadows } = frame;
+        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
         let kinds = Reflectances::of_scene(scene);
+        let shadows = frame.shadows()?;
         let gather = gather::gather(gpu, pixels, eye, &kinds, &settings, shadows)?;
         let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
         let batches_a_step = DIRECTIONS_A_STEP / directions_a_batch;

@@ -60,15 +60,20 @@ pub(crate) fn families() -> Vec<Family> {
     families
 }
 
-/// A light that comes near, one that becomes a point, points that come near, one that the horizon cuts.
-fn of_size(size: f32, brdf: Brdf) -> [Family; 4] {
+/// A light that comes near, one that becomes a point, points that come near, one that the horizon cuts, one
+/// on the plane of the surface.
+fn of_size(size: f32, brdf: Brdf) -> [Family; 5] {
     let origin = size * Vec3::new(0.3, -0.2, 0.5);
     let camera = origin + size * oblique(Vec3::new(0.4, 1.0, 0.2));
     let up = oblique(Vec3::Y);
-    let at = |offset: Vec3, extent| Pair {
-        surface: SurfaceRecord::new(origin, up, brdf),
-        light: light(origin + oblique(offset), -up, brdf),
-        extent,
+    let surface = SurfaceRecord::new(origin, up, brdf);
+    let at = |offset: Vec3, extent| {
+        let light = light(origin + oblique(offset), -up, brdf);
+        Pair { surface, light, extent }
+    };
+    let beside = |d: f32| {
+        let light = light(origin + oblique(d * Vec3::X), up, brdf);
+        Pair { surface, light, extent: 0.1 * size }
     };
     let across = Vec3::new(0.3, 1.0, 0.1).normalize();
     let family = |name: &str, pair: &dyn Fn(f32) -> Pair| Family {
@@ -83,6 +88,7 @@ fn of_size(size: f32, brdf: Brdf) -> [Family; 4] {
         family("light that touches the surface", &|d| {
             at(d * Vec3::new(1.0, 0.01, 0.0), 0.1 * size)
         }),
+        family("on the same plane", &beside),
     ]
 }
 

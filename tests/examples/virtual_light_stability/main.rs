@@ -8,9 +8,10 @@ mod methods;
 use std::fmt::Write as _;
 
 use manylights_gpu::{AdapterReport, Gpu};
+use manylights_tests::GPU;
 
 use families::{Family, families};
-use methods::{Hvl, Subject, Vpl, Vsgl, Vsl};
+use methods::{SUBJECTS, Subject};
 
 /// What a family, or one pair of it, has shown.
 struct Outcome {
@@ -22,11 +23,11 @@ struct Outcome {
 }
 
 impl Outcome {
-    fn of(gpu: &Gpu, subject: &dyn Subject, family: &Family) -> Self {
-        let errors = vec![0.0; subject.columns().len()];
+    fn of(gpu: &Gpu, subject: &Subject, family: &Family) -> Self {
+        let errors = vec![0.0; subject.columns.len()];
         let mut all = Self { errors, largest: 0.0, non_finite: 0 };
         for pair in &family.pairs {
-            let one = subject.measure(gpu, pair, family.camera);
+            let one = (subject.measure)(gpu, pair, family.camera);
             for (worst, error) in all.errors.iter_mut().zip(one.errors) {
                 *worst = worst.max(error);
             }
@@ -38,9 +39,9 @@ impl Outcome {
 }
 
 /// The table of a method, and whether all values are finite.
-fn table(gpu: &Gpu, subject: &dyn Subject) -> (String, bool) {
+fn table(gpu: &Gpu, subject: &Subject) -> (String, bool) {
     let AdapterReport { name, driver, driver_info, .. } = gpu.report();
-    let columns = subject.columns();
+    let columns = subject.columns;
     let mut table = format!(
         "# {}: hard cases\n\n\
          `cargo run --release -p manylights-tests --example virtual_light_stability` on {name} ({driver} \
@@ -48,8 +49,8 @@ fn table(gpu: &Gpu, subject: &dyn Subject) -> (String, bool) {
          Largest difference of the adapter's f32 to the f64 oracle over each family of light and surface \
          pairs. {} The largest true radiance shows how hard the family is.\n\n\
          | family | pairs | {} | largest radiance | non-finite |\n|---|---|{}---|---|\n",
-        subject.title(),
-        subject.notes(),
+        subject.title,
+        subject.notes,
         columns.join(" | "),
         "---|".repeat(columns.len()),
     );
@@ -66,13 +67,11 @@ fn table(gpu: &Gpu, subject: &dyn Subject) -> (String, bool) {
 }
 
 fn main() {
-    let gpu = Gpu::new(None).expect("an adapter: scripts/bench installs one");
     let folder = "results/stability";
     std::fs::create_dir_all(folder).expect("the results folder can be made");
-    let subjects: [&dyn Subject; 4] = [&Vpl, &Vsl, &Hvl, &Vsgl];
-    let finite = subjects.map(|subject| {
-        let (table, finite) = table(&gpu, subject);
-        std::fs::write(format!("{folder}/{}.md", subject.id()), &table)
+    let finite = SUBJECTS.map(|subject| {
+        let (table, finite) = table(&GPU, &subject);
+        std::fs::write(format!("{folder}/{}.md", subject.id), &table)
             .expect("the table can be written");
         print!("{table}");
         finite

@@ -12,7 +12,8 @@ const BANDS: [usize; 5] = [3, 5, 10, 15, 20];
 const SAMPLES: u32 = 25;
 
 /// Names of the columns, each once.
-pub(crate) const NAMES: [&str; 5] = ["vpl", "vsl", "vsgl", "hvl", "hvl form=1"];
+pub(crate) const NAMES: [&str; 6] =
+    ["vpl", "vsl sampling=0", "vsl sampling=1", "vsgl", "hvl", "hvl form=1"];
 
 /// A method with its parameters.
 pub(crate) struct Column {
@@ -21,30 +22,33 @@ pub(crate) struct Column {
     pub(crate) parameters: Vec<(&'static str, String)>,
     pub(crate) cells: u32,
     pub(crate) bands: Option<usize>,
-    /// Of a pair.
-    pub(crate) operations: Operations,
+    /// Of a pair; none where it depends on chance.
+    pub(crate) operations: Option<Operations>,
 }
 
-/// For a scene with glossy surfaces or without.
+/// For a scene that is glossy all over or nowhere.
 pub(crate) fn columns(glossy: bool) -> Vec<Column> {
     let kinds = Reflectances { specular: glossy, ..Reflectances::default() };
     let column = |name, method, cells: u32, more: &[(&'static str, String)], operations| {
         let parameters = more.iter().cloned().chain([("lights", cells.to_string())]).collect();
         Column { name, method, parameters, cells, bands: None, operations }
     };
-    let vsl = [("samples", SAMPLES.to_string()), ("sampling", "0".to_owned())];
+    let vsl =
+        |sampling: &str| [("samples", SAMPLES.to_string()), ("sampling", sampling.to_owned())];
     let hvl = |name, form, cells, bands: usize| {
         let more = [("bands", bands.to_string()), ("form", (form as u32).to_string())];
         let operations = of_hvl(glossy, form, bands).expect("a shader");
-        Column { bands: Some(bands), ..column(name, &Hvl, cells, &more, operations) }
+        Column { bands: Some(bands), ..column(name, &Hvl, cells, &more, Some(operations)) }
     };
     let points = of_vpl(&kinds).expect("a shader");
-    let spheres = of_vsl(&kinds).expect("a shader");
+    let cones = of_vsl(&kinds).expect("a shader");
     let gaussians = of_vsgl(&kinds).expect("a shader");
     let mut columns = Vec::new();
-    columns.extend(CELLS.map(|cells| column("vpl", &Vpl, cells, &[], points)));
-    columns.extend(CELLS.map(|cells| column("vsl", &Vsl, cells, &vsl, spheres)));
-    columns.extend(CELLS.map(|cells| column("vsgl", &Vsgl, cells, &[], gaussians)));
+    columns.extend(CELLS.map(|cells| column("vpl", &Vpl, cells, &[], Some(points))));
+    columns.extend(CELLS.map(|cells| column("vsl sampling=0", &Vsl, cells, &vsl("0"), None)));
+    columns
+        .extend(CELLS.map(|cells| column("vsl sampling=1", &Vsl, cells, &vsl("1"), Some(cones))));
+    columns.extend(CELLS.map(|cells| column("vsgl", &Vsgl, cells, &[], Some(gaussians))));
     for (name, form) in [("hvl", Form::Full), ("hvl form=1", Form::Zonal)] {
         columns.extend(BANDS.map(|bands| hvl(name, form, 400, bands)));
         columns.extend([100, 1600].map(|cells| hvl(name, form, cells, 5)));
@@ -58,10 +62,11 @@ fn of_vpl(kinds: &Reflectances) -> Result<Operations, Error> {
     operations(&shader, "contribution", 1)
 }
 
+/// Every sample of a cone is evaluated.
 fn of_vsl(kinds: &Reflectances) -> Result<Operations, Error> {
     let settings = manylights_vsl::Settings {
         samples: SAMPLES,
-        sampling: Sampling::Brdf,
+        sampling: Sampling::Cone,
         ..manylights_vsl::Settings::default()
     };
     let shader = manylights_vsl::linked_shader(kinds, kinds.specular, false, &settings)?;
@@ -78,7 +83,7 @@ fn of_vsgl(kinds: &Reflectances) -> Result<Operations, Error> {
 
 fn of_hvl(glossy: bool, form: Form, bands: usize) -> Result<Operations, Error> {
     let settings = manylights_hvl::Settings { form, bands, ..manylights_hvl::Settings::default() };
-    // As in `trio`, which has a coloured metal.
+    // `trio` has a coloured metal.
     let lobes = Lobes {
         receivers: glossy,
         lights: glossy,
