@@ -8,7 +8,7 @@ use manylights_harmonics::dering::{Profile, Sphere};
 use manylights_harmonics::rotation::Blocks;
 use manylights_harmonics::window::Window;
 use manylights_harmonics::zonal::{self, Cap};
-use manylights_harmonics::{Basis, count};
+use manylights_harmonics::{Basis, clamped_cosine, count};
 use proptest::prelude::*;
 
 /// A cap, and a delta function.
@@ -52,6 +52,17 @@ fn caps_and_deltas_ring_before_and_not_after_and_no_weaker_window_does() {
             }
         }
     }
+}
+
+/// Between strengths 0.04 and 0.3 it rings again: halving the whole range would end there.
+#[test]
+fn the_weaker_of_two_windows_is_found() {
+    let mut scales = [0.0; 20];
+    clamped_cosine::scales(&mut scales);
+    let (mut weights, mean) = ([0.0; 20], scales[0] / (4.0 * std::f64::consts::PI));
+    let search = &mut Profile::new(20);
+    let strength = search.search(Window::SincFourth, &scales, 0.01 * mean, &mut weights);
+    assert!((0.01..0.03).contains(&strength.expect("the mean is positive")), "{strength:?}");
 }
 
 #[test]

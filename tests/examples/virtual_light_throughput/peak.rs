@@ -5,7 +5,9 @@ use manylights_gpu::{Binding, Dispatch, Gpu, Resource};
 /// Chains of multiplication and addition that do not wait for each other: more hide what an operation
 /// takes, but need registers.
 const CHAINS: [usize; 4] = [1, 2, 4, 8];
-const TURNS: u64 = 4096;
+/// Steps of each chain a turn of the loop, which costs more than they do.
+const STEPS: usize = 64;
+const TURNS: u64 = 64;
 const GROUPS: u32 = 1024;
 const LANES: u64 = 64;
 const ROUNDS: usize = 4;
@@ -27,7 +29,7 @@ fn with_chains(gpu: &Gpu, chains: usize) -> f64 {
          for (var i = 0u; i < {TURNS}u; i++) {{\n{}}}\n\
          sums[id.x] = 0.0{};\n}}\n",
         each(&|k| format!("var a{k} = start + {k}.0;\n")),
-        each(&|k| format!("a{k} = a{k} * step.x + step.y;\n")),
+        each(&|k| format!("a{k} = a{k} * step.x + step.y;\n")).repeat(STEPS),
         each(&|k| format!(" + a{k}")),
     );
     let bindings = [Binding::Uniform, Binding::StorageMut];
@@ -40,6 +42,6 @@ fn with_chains(gpu: &Gpu, chains: usize) -> f64 {
     // The first one compiles.
     let round = |_| gpu.run(std::slice::from_ref(&dispatch)).expect("a pass")[0].seconds;
     let fastest = (0..=ROUNDS).map(round).fold(f64::MAX, f64::min);
-    let operations = 2 * u64::from(GROUPS) * LANES * TURNS * chains as u64;
+    let operations = 2 * u64::from(GROUPS) * LANES * TURNS * (STEPS * chains) as u64;
     operations as f64 / fastest
 }

@@ -8,8 +8,10 @@
 //! is sought on a grid and refined from there; zonal functions on their profile; a tolerance; the
 //! search runs over the strength 1/width, which is 0 where nothing is damped.
 //!
-//! What is found does not ring, and 2⁻²⁴ less of strength rings. Were the minimum not monotonic in the
-//! strength, a still weaker window might do as well. Apply the weights by
+//! The minimum is not monotonic in the strength: under sinc⁴, twenty bands of max(0, cos) stay above −1 %
+//! of their mean at strengths 0.02 to 0.04 and from 0.3 on, not between. So 32 strengths are tried from
+//! the weakest on before one is bisected. What is found does not ring, and 2⁻²⁴ less of strength rings;
+//! between two tries a still weaker window might do. Apply the weights by
 //! [`crate::convolution::convolve`].
 
 mod profile;
@@ -21,10 +23,14 @@ pub use sphere::Sphere;
 use crate::Real;
 use crate::window::Window;
 
+/// Strengths that are tried, the k-th (k/32)²: the first ones are narrower than a band.
+const TRIES: usize = 32;
+
 /// Halvings of the strength.
 const STEPS: usize = 24;
 
-/// Bisects the strength; writes the weights found. `None` if even the mean rings.
+/// The first strength that does not ring, bisected; writes the weights found. `None` if even the mean
+/// rings.
 fn weakest<R: Real>(
     window: Window,
     weights: &mut [R],
@@ -34,12 +40,13 @@ fn weakest<R: Real>(
     if !rings(weights) {
         return Some(R::zero());
     }
+    let strength = |k: usize| R::of((k as f64 / TRIES as f64).powi(2));
     // At width one the mean alone is left.
-    let (mut weak, mut strong) = (R::zero(), R::one());
-    window.weights(strong, weights);
-    if rings(weights) {
-        return None;
-    }
+    let first = (1..=TRIES).find(|&k| {
+        window.weights(strength(k).recip(), weights);
+        !rings(weights)
+    })?;
+    let (mut weak, mut strong) = (strength(first - 1), strength(first));
     for _ in 0..STEPS {
         let middle = R::of(0.5) * (weak + strong);
         window.weights(middle.recip(), weights);
