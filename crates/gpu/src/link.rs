@@ -1,6 +1,8 @@
 //! Shader linking: WESL modules to WGSL, in one place.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 use wesl::syntax::{ModulePath, PathOrigin};
 use wesl::{CompileOptions, EscapeMangler, Features, VirtualResolver};
@@ -25,11 +27,29 @@ const SHARED: [(&str, &str); 6] = [
 
 /// The WGSL of the module `source`, with what it imports from the shared modules and from `modules`
 /// and nothing that it does not reach: a pipeline for a scene without a lobe holds no code of that
-/// lobe.
+/// lobe. Linked once in a process.
 ///
 /// # Errors
 /// A syntax error, an unknown import or a feature without a position, with the module's name.
 pub fn link(
+    name: &str,
+    source: &str,
+    modules: &[Module<'_>],
+    features: &[Feature<'_>],
+) -> Result<String, Error> {
+    // Twenty bands take a third of a second.
+    static LINKED: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
+    let key = format!("{name} {features:?} {modules:?} {source}");
+    let linked = || LINKED.lock().unwrap_or_else(|poison| poison.into_inner());
+    if let Some(wgsl) = linked().get(&key) {
+        return Ok(wgsl.clone());
+    }
+    let wgsl = compile(name, source, modules, features)?;
+    linked().insert(key, wgsl.clone());
+    Ok(wgsl)
+}
+
+fn compile(
     name: &str,
     source: &str,
     modules: &[Module<'_>],

@@ -37,8 +37,9 @@
 //! # Emission (5.6)
 //! On Lambertian surfaces one colour: nothing of the light depends on the pixel but the cosine. On
 //! glossy ones the scene's reflectance itself by default (`emission_bands` = 0), which is exact
-//! and takes less time than three bands of an expansion; or an expansion ([`emission`]), whose band 0
-//! alone makes the light as cheap as a Lambertian one. See `examples/hvl_emission.rs` for what each costs.
+//! and takes about the time of two or three bands of an expansion; or an expansion ([`emission`]), of
+//! which band 0 alone leaves nothing of the lobe to evaluate. See `examples/hvl_emission.rs` for what
+//! each costs and changes.
 //!
 //! # Cost
 //! A pixel's expansion is fetched once a batch, not once a light. Lights take 48 bytes, glossy ones 64.

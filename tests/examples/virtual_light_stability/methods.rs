@@ -1,7 +1,7 @@
 //! How each method is measured.
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::{Error, Gpu, LitTexel, SphericalLight, SurfaceRecord};
+use manylights_gpu::{Error, Gpu, LitTexel, SphericalLight, SurfaceRecord, VirtualLight};
 use manylights_scene::Brdf;
 use manylights_vsgl::{GaussianLight, SpecularLobe};
 use {
@@ -47,8 +47,9 @@ pub(crate) const SUBJECTS: [Subject; 4] = [
     Subject {
         id: "hvl",
         title: "Harmonics virtual lights",
-        notes: "Errors are relative to the oracle's, or to what a white Lambertian surface would send \
-                if that is more: an expansion may cross zero.",
+        notes: "Errors are relative to the oracle's, or to what white Lambertian surfaces that face \
+                each other would send if that is more: an expansion may cross zero, and what is left \
+                on one plane or behind is rounding.",
         columns: &[
             "5 bands",
             "exact horizon",
@@ -131,13 +132,26 @@ fn measure_hvl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
         hvl::Settings { emission_bands: 3, ..plain },
     ];
     let eye = camera.as_dvec3();
-    let white = SurfaceRecord::new(surface.position, surface.normal, Brdf::lambert(Vec3::ONE));
-    let white = hvl::oracle::radiance(&white, eye, &spheres, &zonal).max_element();
+    let white = white(surface, &spheres[0], eye);
     let columns = columns.map(|settings| {
         let pixels = hvl::gather(gpu, &[*surface], camera, &spheres, &settings);
         [pixel(pixels), hvl::oracle::radiance(surface, eye, &spheres, &settings)]
     });
     outcome(columns, Some(white))
+}
+
+/// What a white Lambertian surface sends if it and the light, on such a surface, face each other: where they
+/// do not, what is left may be rounding.
+fn white(surface: &SurfaceRecord, sphere: &SphericalLight, eye: DVec3) -> f64 {
+    let brdf = Brdf::lambert(Vec3::ONE);
+    let toward = sphere.light.position - surface.position;
+    let toward = toward.try_normalize().unwrap_or(surface.normal);
+    let surface = SurfaceRecord::new(surface.position, toward, brdf);
+    let (geometric_normal, normal, incoming) = (-toward, -toward, -toward);
+    let light = VirtualLight { geometric_normal, normal, incoming, brdf, ..sphere.light };
+    let settings = hvl::Settings { form: hvl::Form::Zonal, ..hvl::Settings::default() };
+    hvl::oracle::radiance(&surface, eye, &[SphericalLight { light, ..*sphere }], &settings)
+        .max_element()
 }
 
 fn measure_vsgl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
