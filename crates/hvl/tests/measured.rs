@@ -124,7 +124,8 @@ fn off_finer(brdf: Brdf, bands: usize) -> f64 {
 fn tables_are_projections() {
     // The measurement is linear between a few angles: kinks limit both quadratures.
     let [off, finer] = [off_quadrature(satin(), 5), off_finer(satin(), 5)];
-    assert!(off < 1e-3 && finer < 1e-3, "{off:e} {finer:e}");
+    println!("{off:.1e} off the quadrature, {finer:.1e} off finer nodes");
+    assert!(off < 5e-4 && finer < 2e-4, "{off:e} {finer:e}");
 }
 
 /// However few the bands, a light emits the albedo of each channel, and an expansion is the projection of
@@ -149,7 +150,8 @@ fn emission_is_that_of_the_measurement() {
                     println!(
                         "{degrees}°, channel {channel}, {bands} bands: {albedo:.3} {error:.1e}"
                     );
-                    assert!(error < 1e-3, "{degrees}°, {channel}, {bands}: {error:e}");
+                    // 9.5e-6 measured: kinks of the interpolation limit both quadratures.
+                    assert!(error < 3e-5, "{degrees}°, {channel}, {bands}: {error:e}");
                 }
                 // Up to the factor that keeps the flux, bands 0 to 4 of the mirrored lobe.
                 let moment = |f: &dyn Fn(DVec3) -> DVec3, power: i32, nodes| {
@@ -162,7 +164,7 @@ fn emission_is_that_of_the_measurement() {
                 };
                 let (found, expected) = (ratio(&part, 12), ratio(&whole, 201));
                 println!("{degrees}°, channel {channel}: second moment {found:.4}, {expected:.4}");
-                assert!((found - expected).abs() < 1e-3, "{degrees}°: {found} {expected}");
+                assert!((found - expected).abs() < 1e-4, "{degrees}°: {found} {expected}");
             }
         }
     }
@@ -195,7 +197,7 @@ fn more_bands_approach_the_integral() {
 #[test]
 #[ignore = "needs MANYLIGHTS_ASSETS"]
 fn real_measurements() {
-    for (name, bound) in [("paper_white", 1e-3), ("vch_golden_yellow", 2e-3)] {
+    for (name, bound) in [("paper_white", 4e-4), ("vch_golden_yellow", 1.5e-3)] {
         let (brdf, bands) = (of_rgl(name), 10);
         let (quadrature, adapter) = (off_quadrature(brdf, bands), off_oracle(brdf));
         println!("{name}: {quadrature:.1e} off the quadrature, {adapter:.1e} off the oracle");
