@@ -3,10 +3,11 @@
 use std::sync::LazyLock;
 
 use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
-use manylights_method::{Frame, Method, Parameters, Run, Transport, Visibility};
+use manylights_method::{Frame, Method, Parameters, Run};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer::{Reference, Settings};
 use manylights_scene::Scene;
+use manylights_scene::{Transport, Visibility};
 
 /// The adapter. It keeps kernels, which take long to compile.
 pub static GPU: LazyLock<Gpu> =

@@ -1,10 +1,11 @@
 //! Virtual point lights against the reference that they converge to.
 
 use glam::Vec3;
-use manylights_method::Visibility;
 use manylights_metrics::Errors;
 use manylights_scene::Light;
+use manylights_scene::Visibility;
 use manylights_tests::Stage;
+use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 
 /// Errors at these counts, and the noise floor of the reference.
@@ -16,7 +17,8 @@ fn errors<const N: usize>(
 ) -> ([Errors; N], f64) {
     let reference = stage.reference(visibility, samples);
     let errors = counts.map(|lights| {
-        let image = stage.picture(&Vpl, &[("lights", &lights.to_string())], visibility, 0);
+        let image =
+            stage.picture(&VirtualLights(Vpl), &[("lights", &lights.to_string())], visibility, 0);
         manylights_metrics::compare_linear(&image, &reference.image).expect("comparable")
     });
     (errors, reference.noise_floor)

@@ -2,9 +2,11 @@
 //! where we differ, stands in METHODOLOGY.md.
 
 use manylights_hvl::Hvl;
-use manylights_method::{Method, Visibility};
+use manylights_method::Method;
 use manylights_metrics::{compare_display, compare_linear};
+use manylights_scene::Visibility;
 use manylights_tests::Stage;
+use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 use manylights_vsl::Vsl;
 
@@ -52,8 +54,14 @@ fn find<const N: usize>(scene: &str, columns: [Column<'_>; N]) -> [Found; N] {
 #[test]
 fn at_equal_count_spheres_have_lower_spikes() {
     for scene in ["trio", "cornell-glossy"] {
-        let [points, harmonics, samples] =
-            find(scene, [(&Vpl, &[], "400"), (&Hvl, HVL, "400"), (&Vsl, VSL, "400")]);
+        let [points, harmonics, samples] = find(
+            scene,
+            [
+                (&VirtualLights(Vpl), &[], "400"),
+                (&VirtualLights(Hvl), HVL, "400"),
+                (&VirtualLights(Vsl), VSL, "400"),
+            ],
+        );
         assert!(harmonics.spikes < 0.7 * points.spikes, "{scene}");
         assert!(samples.spikes < 0.7 * points.spikes, "{scene}");
         assert!(samples.rmse < points.rmse, "{scene}");
@@ -64,8 +72,14 @@ fn at_equal_count_spheres_have_lower_spikes() {
 #[test]
 fn with_many_lights_points_win() {
     for scene in ["trio", "cornell-glossy"] {
-        let [points, harmonics, fine] =
-            find(scene, [(&Vpl, &[], "20000"), (&Hvl, HVL, "20000"), (&Hvl, FINE, "20000")]);
+        let [points, harmonics, fine] = find(
+            scene,
+            [
+                (&VirtualLights(Vpl), &[], "20000"),
+                (&VirtualLights(Hvl), HVL, "20000"),
+                (&VirtualLights(Hvl), FINE, "20000"),
+            ],
+        );
         assert!(points.rmse < 0.8 * harmonics.rmse, "{scene}");
         assert!(fine.rmse < 0.9 * harmonics.rmse, "{scene}");
     }

@@ -6,10 +6,12 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_hvl::Hvl;
-use manylights_method::{Method, Visibility};
+use manylights_method::Method;
 use manylights_scene::Brdf;
+use manylights_scene::Visibility;
 use manylights_scene::builtin::integrating_sphere::{ALBEDO, INTENSITY, RADIUS};
 use manylights_tests::Stage;
+use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 use manylights_vsgl::oracle::DIFFUSE_SHARPNESS;
 use manylights_vsgl::{GaussianLight, Lobe, Settings, Vsgl, gaussian_lights, oracle};
@@ -36,7 +38,7 @@ fn mean(values: &[f64]) -> f64 {
 /// Pixels beside a light see its 1/d² instead of the mean over its cell; most do not.
 #[test]
 fn points() {
-    let found = deviations(64, &Vpl, &[("lights", "4096")]);
+    let found = deviations(64, &VirtualLights(Vpl), &[("lights", "4096")]);
     let median = found[found.len() / 2];
     println!("median {median:+.2e}, mean {:+.2e}", mean(&found));
     assert!(median.abs() < 0.01, "{median}");
@@ -50,7 +52,7 @@ fn spheres_by_samples() {
     let bias = |lights, sampling, radius| {
         let parameters =
             [("lights", lights), ("samples", "4"), ("sampling", sampling), ("radius", radius)];
-        let bias = mean(&deviations(16, &Vsl, &parameters));
+        let bias = mean(&deviations(16, &VirtualLights(Vsl), &parameters));
         println!("{lights} lights, radius {radius}, sampling {sampling}: {bias:+.2e}");
         bias
     };
@@ -73,7 +75,7 @@ fn spheres_by_harmonics() {
     for radius in ["0", "1", "2", "3"] {
         let scale = if radius == "3" { 0.02 * RADIUS } else { 1.0 }.to_string();
         let parameters = [("lights", "4096"), ("radius", radius), ("scale", &scale)];
-        let found = deviations(32, &Hvl, &parameters);
+        let found = deviations(32, &VirtualLights(Hvl), &parameters);
         let [low, median, high] = [5, 50, 95].map(|percent| found[found.len() * percent / 100]);
         println!("radius {radius}: 5 % {low:+.2e}, 50 % {median:+.2e}, 95 % {high:+.2e}");
         for value in [low, median, high, mean(&found)] {
@@ -90,7 +92,7 @@ fn spheres_by_zonal_harmonics() {
     for radius in ["0", "1", "2"] {
         let [few, many] = ["4096", "65536"].map(|lights| {
             let parameters = [("lights", lights), ("radius", radius), ("form", "1")];
-            mean(&deviations(32, &Hvl, &parameters))
+            mean(&deviations(32, &VirtualLights(Hvl), &parameters))
         });
         println!("radius {radius}: {few:+.2e}, {many:+.2e}");
         assert!(many > 0.0 && many < 0.02, "radius {radius}: {many}");
@@ -103,7 +105,7 @@ fn gaussian_bias(lights: u64, texels: u32) -> [f64; 2] {
     let stage = Stage::builtin("integrating-sphere", [12, 12]);
     let settings = Settings { lights, texels, ..Settings::default() };
     let parameters = [("lights", &*lights.to_string()), ("texels", &*texels.to_string())];
-    let image = stage.picture(&Vsgl, &parameters, Visibility::Ignored, 0);
+    let image = stage.picture(&VirtualLights(Vsgl), &parameters, Visibility::Ignored, 0);
     let (lights, _) = gaussian_lights(&stage.on_gpu, &stage.scene, &settings, 0).expect("lights");
     let (surfaces, eye) = (stage.surfaces(), stage.scene.cameras[0].position.as_dvec3());
     let truth = surfaces.iter().map(|surface| oracle::radiance(surface, eye, &lights, &settings).y);

@@ -8,9 +8,18 @@ use manylights_method::Method;
 
 /// Crates that no method may be named in, with their floors. All other crates are methods, but for the
 /// path tracer, which is a method and makes the references.
-const FLOORS: [(&str, u32); 6] =
-    [("harmonics", 0), ("scene", 0), ("metrics", 0), ("gpu", 1), ("method", 2), ("harness", 4)];
-const METHOD_FLOOR: u32 = 3;
+const FLOORS: [(&str, u32); 9] = [
+    ("harmonics", 0),
+    ("scene", 0),
+    ("metrics", 0),
+    ("gpu", 1),
+    ("reflectance", 1),
+    ("method", 2),
+    ("paths", 2),
+    ("virtual-lights", 3),
+    ("harness", 5),
+];
+const METHOD_FLOOR: u32 = 4;
 const PATH_TRACER: &str = "path-tracer";
 /// The only list of methods.
 const REGISTRY: &str = "crates/harness/src/registry.rs";

@@ -2,10 +2,11 @@
 //! the bands of the other have one limit.
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::{SphericalLight, SurfaceRecord, VirtualLight};
+use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_hvl::{Horizon, Settings};
 use manylights_scene::{Brdf, Lobe};
+use manylights_virtual_lights::{VirtualLight, VirtualSphere};
 use manylights_vsl::oracle::Receiver;
 
 fn glossy(roughness: f32) -> Brdf {
@@ -15,17 +16,17 @@ fn glossy(roughness: f32) -> Brdf {
 }
 
 /// A sphere that faces the origin from well above the horizon.
-fn sphere(radius: f32) -> SphericalLight {
+fn sphere(radius: f32) -> VirtualSphere {
     let position = Vec3::new(0.4, 1.0, 0.1);
     let normal = -position.normalize();
     let brdf = Brdf::lambert(Vec3::ONE);
     let (geometric_normal, incoming, flux) = (normal, normal, Vec3::ONE);
     let light = VirtualLight { position, geometric_normal, normal, incoming, flux, brdf };
-    SphericalLight { light, radius }
+    VirtualSphere { light, radius }
 }
 
 /// What infinitely many samples of a virtual spherical light give.
-fn by_samples(surface: &SurfaceRecord, camera: DVec3, sphere: &SphericalLight) -> DVec3 {
+fn by_samples(surface: &SurfaceRecord, camera: DVec3, sphere: &VirtualSphere) -> DVec3 {
     let receiver = Receiver::new(surface, camera);
     let cone = receiver.cone(sphere).expect("the sphere is somewhere");
     let (a, b) = cone.axis.any_orthonormal_pair();

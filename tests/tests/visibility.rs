@@ -1,9 +1,11 @@
 //! Virtual lights with shadows: every pixel sums what its shadow rays let through.
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::{Center, Shadows, SurfaceRecord, distribute};
-use manylights_method::{Method, Visibility};
+use manylights_gpu::{Center, Shadows, SurfaceRecord};
+use manylights_method::Method;
+use manylights_scene::Visibility;
 use manylights_tests::Stage;
+use manylights_virtual_lights::{VirtualLights, distribute};
 use manylights_vpl::Vpl;
 use manylights_vsgl::{Vsgl, gaussian_lights};
 
@@ -46,7 +48,7 @@ fn pixels_sum_what_they_see<L: Copy>(
 #[test]
 fn points() {
     pixels_sum_what_they_see(
-        &Vpl,
+        &VirtualLights(Vpl),
         &[("lights", "400")],
         |stage| distribute(&stage.on_gpu, &stage.scene, 400, 0).expect("lights").0,
         |light| Center::from(light),
@@ -60,7 +62,7 @@ fn points() {
 fn gaussians() {
     let settings = manylights_vsgl::Settings { lights: 300, texels: 5, ..Default::default() };
     pixels_sum_what_they_see(
-        &Vsgl,
+        &VirtualLights(Vsgl),
         &[("lights", "300"), ("texels", "5")],
         |stage| gaussian_lights(&stage.on_gpu, &stage.scene, &settings, 0).expect("lights").0,
         |light| Center::new(light.center, light.geometric_normal),

@@ -1,7 +1,8 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use crate::{AdapterReport, Binding, Error, Kernel};
+use crate::pipeline::{Binding, Kernel};
+use crate::{AdapterReport, Error};
 
 /// An open adapter. Clones share it.
 #[derive(Clone)]

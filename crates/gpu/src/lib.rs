@@ -1,5 +1,5 @@
-//! The wgpu layer: device, timed passes, uniform batches, shader linking, the G-buffer, reflective
-//! shadow maps and the virtual lights that every many-light method shares.
+//! The wgpu layer: device, timed passes, uniform batches, shader linking, the G-buffer, shadow rays,
+//! passes over pixels or any points.
 //!
 //! The only crate that names wgpu, which breaks several times a year: what leaves this crate are
 //! buffers, kernels and numbers.
@@ -10,38 +10,31 @@ mod device;
 mod error;
 mod frame;
 mod kernel;
-mod light_gather;
 mod link;
-mod lit_texels;
+mod occluders;
 mod operations;
+mod pipeline;
+mod pixel_pass;
 mod projection;
-mod radius;
 mod raster;
 mod reflectances;
 mod report;
-mod rsm;
 mod scene_buffers;
 mod shadows;
-mod solid_angle;
-mod spherical_light;
-mod virtual_light;
+mod surface;
 
 pub use batches::UniformBatches;
 pub use buffer::Buffer;
 pub use device::Gpu;
 pub use error::Error;
-pub use frame::{GpuFrame, SurfaceRecord};
-pub use kernel::{Binding, Dispatch, Kernel, PassTime, Resource};
-pub use light_gather::{LightBatches, LightGather, Lights};
+pub use frame::GpuFrame;
+pub use kernel::{Dispatch, PassTime, Resource};
 pub use link::{Feature, Module, link};
-pub use lit_texels::{LitTexel, LitTexels, lit_texels};
 pub use operations::{Operations, operations};
+pub use pipeline::{Binding, Kernel};
+pub use pixel_pass::workgroups;
 pub use projection::Projection;
-pub use radius::{RadiusRule, radii};
 pub use reflectances::Reflectances;
 pub use report::AdapterReport;
-pub use rsm::{Cell, Map, maps, scene_maps};
 pub use shadows::{Center, Shadows};
-pub use solid_angle::rectangle_solid_angle;
-pub use spherical_light::{SphericalLight, spherical_lights};
-pub use virtual_light::{LitMap, VirtualLight, distribute, lit_maps};
+pub use surface::SurfaceRecord;

@@ -16,11 +16,10 @@ pub type Feature<'a> = (&'a str, bool);
 pub type Module<'a> = (&'a str, &'a str);
 
 /// Modules that every shader may import as `package::NAME`.
-const SHARED: [(&str, &str); 6] = [
+const SHARED: [(&str, &str); 5] = [
     ("brdf", include_str!("shaders/brdf.wesl")),
     ("measured", include_str!("shaders/measured.wesl")),
     ("surface", include_str!("shaders/surface.wesl")),
-    ("lit_texel", include_str!("shaders/lit_texel.wesl")),
     ("scene", include_str!("shaders/scene.wesl")),
     ("visible", include_str!("shaders/visible.wesl")),
 ];

@@ -1,7 +1,7 @@
 //! Rasterising the scene through a [`Projection`] into surfaces.
 
-use crate::frame::SurfaceRecord;
 use crate::scene_buffers::SceneBuffers;
+use crate::surface::SurfaceRecord;
 use crate::{Binding, Buffer, Dispatch, Error, Gpu, PassTime, Projection, Resource, link};
 
 /// The surfaces that a projection sees: a storage buffer of `array<Surface>`, row-major.

@@ -8,11 +8,10 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use manylights_scene::Scene;
-use manylights_scene::bvh::Bvh;
 
+use crate::occluders::Occluders;
 use crate::{
-    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, Kernel, Resource, UniformBatches,
-    VirtualLight, link,
+    Binding, Buffer, Dispatch, Error, GpuFrame, Kernel, Resource, UniformBatches, link, workgroups,
 };
 
 /// Most lights of a batch, as `shaders/shadow.wesl` declares its array: a bit each and pixel.
@@ -37,33 +36,6 @@ impl Center {
     /// A place, m, and the unit normal of its surface on the lit side.
     pub fn new(position: Vec3, geometric_normal: Vec3) -> Self {
         Self { position, geometric_normal, ..Self::zeroed() }
-    }
-}
-
-impl From<&VirtualLight> for Center {
-    fn from(light: &VirtualLight) -> Self {
-        Self::new(light.position, light.geometric_normal)
-    }
-}
-
-/// The hierarchy over a scene's triangles on the adapter.
-pub(crate) struct Occluders {
-    nodes: Buffer,
-    blocks: Buffer,
-    stack: u32,
-    shift: f32,
-}
-
-impl Occluders {
-    pub(crate) fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
-        let bvh = Bvh::build(scene);
-        let words = bvh.words();
-        Ok(Self {
-            nodes: gpu.storage("hierarchy", &words.nodes)?,
-            blocks: gpu.storage("triangles of the hierarchy", &words.blocks)?,
-            stack: words.stack,
-            shift: bvh.shift(),
-        })
     }
 }
 
@@ -108,8 +80,8 @@ impl Shadows {
             kernel: gpu.kernel("shadow", &wgsl, &bindings)?,
             view: gpu.uniform("view of shadows", &view)?,
             hidden: gpu.zeroed("hidden lights", 4 * words)?,
-            vertices: frame.scene.vertices.clone(),
-            triangles: frame.scene.triangles.clone(),
+            vertices: frame.vertices().clone(),
+            triangles: frame.triangles().clone(),
             occluders,
             pixels,
             lights_a_batch,
@@ -117,17 +89,17 @@ impl Shadows {
     }
 
     /// Lights of which [`Shadows::hidden`] has a bit.
-    pub(crate) fn lights_a_batch(&self) -> usize {
+    pub fn lights_a_batch(&self) -> usize {
         self.lights_a_batch
     }
 
     /// Batches whose rays go into one submission.
-    pub(crate) fn batches_a_submission(&self) -> usize {
+    pub fn batches_a_submission(&self) -> usize {
         (RAYS / (self.pixels as usize * self.lights_a_batch)).max(1)
     }
 
     /// The layout that the shader declares for a batch of [`Center`]s.
-    pub(crate) const CAPACITY: usize = MOST_LIGHTS;
+    pub const CAPACITY: usize = MOST_LIGHTS;
 
     /// Whether each pixel does not see each light, at `light * pixels + pixel`: what the gathers read,
     /// for tests.
@@ -152,11 +124,12 @@ impl Shadows {
     }
 
     /// Bit i % 32 of word (i / 32) · pixels + pixel: whether the pixel does not see light i.
-    pub(crate) fn hidden(&self) -> &Buffer {
+    pub fn hidden(&self) -> &Buffer {
         &self.hidden
     }
 
-    pub(crate) fn resources<'a>(
+    /// What the pass reads and writes for a batch of [`Center`]s.
+    pub fn resources<'a>(
         &'a self,
         surfaces: &'a Buffer,
         centers: Resource<'a>,
@@ -168,8 +141,9 @@ impl Shadows {
         [view, surfaces, centers, hidden, vertices, triangles, nodes, blocks]
     }
 
-    pub(crate) fn dispatch<'a>(&'a self, resources: &'a [Resource<'a>; 8]) -> Dispatch<'a> {
-        let [columns, rows, _] = crate::light_gather::workgroups(self.pixels, 64);
+    /// The pass.
+    pub fn dispatch<'a>(&'a self, resources: &'a [Resource<'a>; 8]) -> Dispatch<'a> {
+        let [columns, rows, _] = workgroups(self.pixels, 64);
         let words = (self.lights_a_batch / WORD) as u32;
         Dispatch {
             pass: "shadow",

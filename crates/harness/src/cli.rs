@@ -1,16 +1,12 @@
 //! The command line: a contract that other tools call.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
 
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser, Subcommand};
-use manylights_method::{Transport, Visibility};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::commands;
 use crate::error::{Failure, one_line};
-use crate::experiment::Profile;
-use crate::settings;
 
 #[derive(Parser)]
 #[command(
@@ -26,26 +22,26 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Lists methods, scenes or experiments
-    List(ListArguments),
+    List(commands::list::ListArguments),
     /// Renders one picture
     #[command(after_help = RENDER_EXAMPLES)]
-    Render(RenderArguments),
+    Render(commands::render::RenderArguments),
     /// Prints the errors of a picture against a reference
-    Metrics(MetricsArguments),
+    Metrics(commands::metrics::MetricsArguments),
     /// Runs an experiment and writes tables, curves and pictures
     #[command(after_help = RUN_EXAMPLES)]
-    Run(RunArguments),
+    Run(commands::run::RunArguments),
     /// Writes report.html, a page that needs no network, from the results in a folder
-    Report(ReportArguments),
+    Report(commands::report::ReportArguments),
     /// Lists the jobs of an experiment, for `run --cell` on other machines
-    Plan(PlanArguments),
+    Plan(commands::plan::PlanArguments),
     /// Brings the results of several folders into one and writes its answer
-    Merge(MergeArguments),
+    Merge(commands::merge::MergeArguments),
     /// Compares a fresh quick run with a committed baseline
     #[command(after_help = CHECK_EXAMPLES)]
-    Check(CheckArguments),
+    Check(commands::check::CheckArguments),
     /// Prints results in the format of a benchmark tracker
-    Export(ExportArguments),
+    Export(commands::export::ExportArguments),
     /// Prints the completions of a shell
     Completions {
         /// Which shell
@@ -67,166 +63,6 @@ const CHECK_EXAMPLES: &str = "\
 Examples:
   manylights check                                 # exit status 1 and a table where something moved
   manylights check --baseline results/check --bless # what moved was meant to";
-
-/// What `list` shows.
-#[derive(Clone, Copy, clap::ValueEnum)]
-pub(crate) enum Listed {
-    Methods,
-    Scenes,
-    Experiments,
-}
-
-#[derive(Args)]
-pub(crate) struct ListArguments {
-    /// What to list
-    pub(crate) what: Listed,
-    /// As JSON on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-/// Where things are on this machine.
-#[derive(Args)]
-pub(crate) struct Machine {
-    /// Adapter whose name contains this
-    #[arg(long, value_name = "NAME", env = "WGPU_ADAPTER_NAME")]
-    pub(crate) adapter: Option<String>,
-    /// Folder of the scene files' glTF assets
-    #[arg(long, value_name = "DIR", env = "MANYLIGHTS_ASSETS")]
-    pub(crate) assets: Option<PathBuf>,
-}
-
-#[derive(Args)]
-pub(crate) struct RenderArguments {
-    /// Built-in scene, scenes/NAME.toml, or a .toml, .glb or .gltf file
-    #[arg(long, value_name = "NAME|FILE")]
-    pub(crate) scene: String,
-    /// Method (see `list methods`)
-    #[arg(long, value_name = "ID")]
-    pub(crate) method: String,
-    /// Sets a parameter of the method
-    #[arg(long, value_name = "KEY=VALUE", value_parser = settings::split)]
-    pub(crate) set: Vec<(String, String)>,
-    /// Light paths: direct, indirect-1 (or another number of bounces), all
-    #[arg(long, default_value = "indirect-1", value_name = "PATHS")]
-    pub(crate) transport: Transport,
-    /// Of the last segment of indirect-1: traced, ignored [default: what the method computes]
-    #[arg(long, value_name = "VISIBILITY")]
-    pub(crate) visibility: Option<Visibility>,
-    /// Size of the picture
-    #[arg(long, default_value = "512x512", value_name = "WxH", value_parser = settings::resolution)]
-    pub(crate) resolution: [u32; 2],
-    /// Camera of the scene [default: its first]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) camera: Option<String>,
-    /// Same seed, same picture
-    #[arg(long, default_value_t = 1, value_name = "N", allow_negative_numbers = true)]
-    pub(crate) seed: u64,
-    /// Radiance; a PNG at the scene's exposure is written beside it
-    #[arg(short, long, value_name = "OUT.exr")]
-    pub(crate) output: PathBuf,
-    #[command(flatten)]
-    pub(crate) machine: Machine,
-}
-
-#[derive(Args)]
-pub(crate) struct MetricsArguments {
-    /// Picture to judge
-    pub(crate) image: PathBuf,
-    /// What it should be
-    pub(crate) reference: PathBuf,
-    /// Exposure of the display-referred errors
-    #[arg(long, default_value_t = 1.0, value_name = "FACTOR")]
-    pub(crate) exposure: f32,
-    /// As JSON on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct RunArguments {
-    /// Experiment file
-    pub(crate) experiment: PathBuf,
-    /// How large
-    #[arg(long, value_enum, default_value = "standard")]
-    pub(crate) profile: Profile,
-    /// Folder of the results [default: that of the experiment file]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Runs the cells of one line of `plan` alone
-    #[arg(long, value_name = "KEY")]
-    pub(crate) cell: Option<String>,
-    /// Folder of references [default: manylights/references in the user's cache folder]
-    #[arg(long, value_name = "DIR", env = "MANYLIGHTS_CACHE")]
-    pub(crate) cache: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) machine: Machine,
-}
-
-#[derive(Args)]
-pub(crate) struct ReportArguments {
-    /// Folder of the results, with the experiment file that `run` put there
-    #[arg(value_name = "DIR")]
-    pub(crate) directory: PathBuf,
-}
-
-#[derive(Args)]
-pub(crate) struct PlanArguments {
-    /// Experiment file
-    pub(crate) experiment: PathBuf,
-    /// How large
-    #[arg(long, value_enum, default_value = "standard")]
-    pub(crate) profile: Profile,
-    /// Folder of the scene files' glTF assets
-    #[arg(long, value_name = "DIR", env = "MANYLIGHTS_ASSETS")]
-    pub(crate) assets: Option<PathBuf>,
-    /// As JSON on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct MergeArguments {
-    /// Folders of results of one experiment
-    #[arg(required = true)]
-    pub(crate) directories: Vec<PathBuf>,
-    /// Folder of the merged results
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
-}
-
-#[derive(Args)]
-pub(crate) struct CheckArguments {
-    /// Folder of the baseline: its experiment.toml and cells.jsonl
-    #[arg(long, value_name = "DIR", default_value = "results/check")]
-    pub(crate) baseline: PathBuf,
-    /// Makes what comes out the new baseline
-    #[arg(long)]
-    pub(crate) bless: bool,
-    /// What moved, as JSON on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-    #[command(flatten)]
-    pub(crate) machine: Machine,
-}
-
-/// A service that tracks benchmarks.
-#[derive(Clone, Copy, clap::ValueEnum)]
-pub(crate) enum Tracker {
-    /// Bencher Metric Format
-    Bencher,
-    /// customSmallerIsBetter
-    GithubActionBenchmark,
-}
-
-#[derive(Args)]
-pub(crate) struct ExportArguments {
-    /// Folder of results
-    pub(crate) directory: PathBuf,
-    /// Of which tracker
-    #[arg(long, value_enum)]
-    pub(crate) format: Tracker,
-}
 
 /// Runs the program. Help and version go to standard output, as everywhere.
 ///

@@ -6,44 +6,15 @@
 //! names a method: [`registry::METHODS`] is the only list.
 
 mod answer;
-mod answer_files;
-mod bias;
-mod cell;
 pub mod cli;
-mod columns;
 mod commands;
-mod crops;
-mod curves;
-mod equal_time;
 mod error;
-mod error_scale;
-mod experiment;
-mod jobs;
-mod journal;
-mod layers;
-mod lettering;
-mod measure;
+mod measurement;
 mod names;
-mod numbers;
 mod output;
-mod plan;
 mod progress;
-mod provenance;
-mod published;
-mod reference;
+mod question;
 pub mod registry;
-mod regression;
-mod report;
-mod scene_run;
-mod series;
-mod session;
-mod settings;
-mod sheet;
-mod stage;
-mod statistics;
-mod style;
-mod sweep;
-mod table;
-mod time_budget;
+mod show;
 
 pub use error::Failure;

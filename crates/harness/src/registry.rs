@@ -3,6 +3,7 @@
 use manylights_hvl::Hvl;
 use manylights_method::Method;
 use manylights_path_tracer::PathTracer;
+use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 use manylights_vsgl::Vsgl;
 use manylights_vsl::Vsl;
@@ -10,7 +11,13 @@ use manylights_vsl::Vsl;
 use crate::names;
 
 /// Every method, in the order of lists; its position fixes its colour and marker in plots.
-pub const METHODS: &[&dyn Method] = &[&PathTracer, &Vpl, &Vsl, &Hvl, &Vsgl];
+pub const METHODS: &[&dyn Method] = &[
+    &PathTracer,
+    &VirtualLights(Vpl),
+    &VirtualLights(Vsl),
+    &VirtualLights(Hvl),
+    &VirtualLights(Vsgl),
+];
 
 /// The method of this name.
 ///

@@ -5,12 +5,14 @@
 use std::fmt::Write as _;
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::{SurfaceRecord, VirtualLight};
+use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::window::Window;
-use manylights_hvl::lobes::LobeTable;
-use manylights_hvl::zonal::ZonalTable;
-use manylights_hvl::{Damping, Form, Horizon, Settings, SphericalLight, oracle};
+use manylights_hvl::{Horizon, Settings, VirtualSphere, oracle};
+use manylights_reflectance::lobes::LobeTable;
+use manylights_reflectance::zonal::ZonalTable;
+use manylights_reflectance::{Damping, Form};
 use manylights_scene::{Brdf, Lobe};
+use manylights_virtual_lights::VirtualLight;
 
 const BANDS: [usize; 6] = [1, 3, 5, 10, 15, 20];
 const ROUGHNESS: [f32; 6] = [1.0, 0.6, 0.4, 0.3, 0.2, 0.1];
@@ -26,7 +28,7 @@ fn glossy(roughness: f32) -> Brdf {
 }
 
 /// Spheres that cover 0.2 rad from all over the hemisphere, each shining at the surface.
-fn spheres() -> Vec<SphericalLight> {
+fn spheres() -> Vec<VirtualSphere> {
     (0..256)
         .map(|i| {
             let height = (i as f32 + 0.5) / 256.0;
@@ -41,7 +43,7 @@ fn spheres() -> Vec<SphericalLight> {
                 flux: Vec3::ONE,
                 brdf: Brdf::lambert(Vec3::ONE),
             };
-            SphericalLight { light, radius: 0.2 }
+            VirtualSphere { light, radius: 0.2 }
         })
         .collect()
 }
@@ -94,7 +96,7 @@ fn main() {
     let zonal = Settings { form: Form::Zonal, ..plain };
     for roughness in ROUGHNESS {
         let brdf = glossy(roughness);
-        let truth = |view, sphere: &SphericalLight| {
+        let truth = |view, sphere: &VirtualSphere| {
             oracle::by_quadrature(&surface(brdf), view, sphere, |_, _| 1.0, 48)
         };
         let truths: Vec<Vec<_>> = views()

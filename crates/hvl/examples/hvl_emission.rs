@@ -6,17 +6,21 @@ use std::fmt::Write as _;
 
 use manylights_gpu::{Gpu, GpuFrame};
 use manylights_hvl::Hvl;
-use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_method::{Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
+use manylights_scene::{Transport, Visibility};
+use manylights_virtual_lights::VirtualLights;
 
 const BANDS: [u32; 6] = [0, 1, 2, 3, 5, 9];
 const ROUNDS: usize = 5;
 
 fn picture(frame: &Frame<'_>, bands: u32) -> (RadianceImage, f64) {
     let bands = bands.to_string();
-    let parameters = Parameters::new(Hvl.parameters(), [("emission_bands", &*bands)]);
-    let mut run =
-        Hvl.prepare(frame, &parameters.expect("in range")).expect("hvl renders the scene");
+    let parameters =
+        Parameters::new(VirtualLights(Hvl).parameters(), [("emission_bands", &*bands)]);
+    let mut run = VirtualLights(Hvl)
+        .prepare(frame, &parameters.expect("in range"))
+        .expect("hvl renders the scene");
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
     let times = run.pass_times();

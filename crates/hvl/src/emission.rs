@@ -9,15 +9,13 @@ use std::f64::consts::FRAC_1_PI;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::VirtualLight;
 use manylights_harmonics::{Basis, clamped_cosine, count, index};
 use manylights_scene::{DBrdf, Lobe};
+use manylights_virtual_lights::VirtualLight;
 use rayon::prelude::*;
 
-use crate::cache::Cache;
-use crate::lobe_quadrature::{Fixed, LobeQuadrature};
-use crate::lobes::NODES;
-use crate::{Damping, LobeShape, diffuse};
+use manylights_reflectance::lobes::NODES;
+use manylights_reflectance::{Cache, Damping, Fixed, LobeQuadrature, LobeShape, diffuse};
 
 /// Angles between primary light and normal: 0°, 1°, … 89°. At 90° the reflectance has no bound.
 pub const ANGLES: usize = 90;
@@ -25,7 +23,7 @@ pub const ANGLES: usize = 90;
 /// The lobes of one shape.
 #[derive(Debug)]
 pub struct EmissionTable {
-    /// [A, B] at `angle * terms(bands).count() + position`: see [`crate::lobes`].
+    /// [A, B] at `angle * terms(bands).count() + position`: see [`manylights_reflectance::lobes`].
     values: Vec<[f64; 2]>,
 }
 

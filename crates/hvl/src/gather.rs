@@ -4,17 +4,17 @@ use std::cmp::Ordering;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{
-    Buffer, Center, Error, Gpu, LightBatches, LightGather, Lights, Shadows, SphericalLight, link,
-};
+use manylights_gpu::{Buffer, Center, Error, Gpu, Shadows, link};
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_scene::{Brdf, Lobe, Material, Scene};
+use manylights_virtual_lights::{LightBatches, LightGather, Lights, VirtualSphere};
 
 use crate::emission::{self, EmissionTable};
 use crate::light_record::{GlossyLight, LambertLight, rounded_shape};
-use crate::lobes::LobeTable;
-use crate::zonal::ZonalTable;
-use crate::{Form, Horizon, LobeShape, Settings, diffuse, lobe_wgsl};
+use crate::{Horizon, Settings};
+use manylights_reflectance::lobes::LobeTable;
+use manylights_reflectance::zonal::ZonalTable;
+use manylights_reflectance::{Form, LobeShape, RECEIVER, diffuse, lobe_wgsl};
 
 /// Spheres a batch, as `shaders/gather.wesl` declares its array.
 pub(crate) const CAPACITY: usize = 512;
@@ -50,11 +50,11 @@ pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<
     let modules = [
         ("sh", &*sh),
         ("diffuse", &*diffuse::module(bands, damping)),
-        ("lobe", &*lobe_wgsl::module(settings)),
+        ("lobe", &*lobe_wgsl::module(bands, settings.form)),
         ("emission_sh", &*emission_sh),
         ("emission", &*emission::module(emission_bands.max(1))),
         ("horizon", include_str!("shaders/horizon.wesl")),
-        ("receiver", include_str!("shaders/receiver.wesl")),
+        RECEIVER,
         ("light", include_str!("shaders/light.wesl")),
     ];
     let features = [
@@ -114,7 +114,7 @@ impl Materials {
     }
 
     /// First element in the table of emissions of the row for a light.
-    fn emission_row(&self, sphere: &SphericalLight, bands: usize) -> u32 {
+    fn emission_row(&self, sphere: &VirtualSphere, bands: usize) -> u32 {
         let shape = LobeShape::from(sphere.light.brdf);
         // Rounding keeps the order.
         let table = self.shapes.partition_point(|&other| rounded_shape(other) < shape);
@@ -186,14 +186,14 @@ fn single(values: &[[f64; 2]]) -> Vec<[f32; 2]> {
 /// Where the adapter refuses.
 pub(crate) fn batches(
     gather: &LightGather,
-    lights: &[SphericalLight],
+    lights: &[VirtualSphere],
     materials: &Materials,
     settings: &Settings,
 ) -> Result<LightBatches, Error> {
     let bands = settings.emission_bands;
     let (glossy, lambert): (Vec<_>, Vec<_>) =
         lights.iter().partition(|sphere| bands != 1 && sphere.light.brdf.has_specular());
-    let centers = [&lambert, &glossy].map(|lights: &Vec<&SphericalLight>| {
+    let centers = [&lambert, &glossy].map(|lights: &Vec<&VirtualSphere>| {
         lights.iter().map(|sphere| Center::from(&sphere.light)).collect::<Vec<_>>()
     });
     let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();

@@ -50,51 +50,42 @@
 //! - The expansion of a light's emission is scaled to the flux of the lobe itself ([`emission`]): as
 //!   projected, one band emits half to 23 times of it.
 //! - Φ_j is the flux of the light's cell, not power/count; the emitting cosine is that of the geometric
-//!   normal (see [`manylights_gpu::VirtualLight::flux`]).
+//!   normal (see [`manylights_virtual_lights::VirtualLight::flux`]).
 //! - 5.2.7: axis, cosine and Lambertian lobe, see [`zonal`] and above.
 //! - A pixel whose sum is negative, which no radiance is, is shown as 0.
 
-mod cache;
-mod damping;
-pub mod diffuse;
 pub mod emission;
 mod gather;
-mod half_vectors;
 pub mod horizon;
 mod light_record;
-mod lobe_quadrature;
-mod lobe_shape;
-mod lobe_wgsl;
-pub mod lobes;
 pub mod oracle;
 mod params;
-mod spherical_light;
-pub mod zonal;
+mod virtual_sphere;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, LightGather, SurfaceRecord};
+use manylights_gpu::{Gpu, SurfaceRecord};
 use manylights_harmonics::even_count;
-use manylights_method::{
-    Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
-};
+use manylights_method::{Error, ParameterInfo, Parameters};
+use manylights_virtual_lights::LightGather;
+use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun};
 
 use gather::{CAPACITY, Materials};
 
 pub use gather::{Lobes, linked_shader};
 pub use light_record::rounded;
-pub use lobe_shape::LobeShape;
-pub use manylights_gpu::SphericalLight;
-pub use params::{Damping, Form, Horizon, MAX_BANDS, Settings};
-pub use spherical_light::spherical_lights;
+pub use manylights_virtual_lights::VirtualSphere;
+pub use params::{Horizon, MAX_BANDS, Settings};
+pub use virtual_sphere::virtual_spheres;
 
 /// Products of coefficients in one submission, light by pixel, where a batch has fewer; a batch is never
 /// cut. About a second on a slow processor, far below any watchdog on a fast one.
 const PRODUCTS_A_STEP: u64 = 1 << 31;
 
-/// The method.
+/// The method is `VirtualLights(Hvl)`.
+#[derive(Clone, Copy, Debug)]
 pub struct Hvl;
 
-impl ManyLightMethod for Hvl {
+impl Estimator for Hvl {
     const ID: &'static str = "hvl";
     const TITLE: &'static str = "harmonics virtual lights (Mézières et al. 2022)";
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
@@ -116,7 +107,7 @@ impl ManyLightMethod for Hvl {
         let products_a_batch = u64::from(pixels) * (CAPACITY * products_a_pair) as u64;
         let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
         let place = move |gather: &LightGather| {
-            let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
+            let (lights, times) = virtual_spheres(on_gpu, scene, &settings, seed)?;
             Ok((gather::batches(gather, &lights, &materials, &settings)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
@@ -133,7 +124,7 @@ pub fn gather(
     gpu: &Gpu,
     surfaces: &[SurfaceRecord],
     camera: Vec3,
-    lights: &[SphericalLight],
+    lights: &[VirtualSphere],
     settings: &Settings,
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let brdfs = surfaces.iter().map(SurfaceRecord::brdf);

@@ -2,14 +2,15 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
-use manylights_gpu::SphericalLight;
 use manylights_scene::{Brdf, Lobe};
+use manylights_virtual_lights::VirtualSphere;
 
-use crate::{LobeShape, emission};
+use crate::emission;
+use manylights_reflectance::LobeShape;
 
 /// The sphere with its light as [`GlossyLight`] holds it, where it lies on a glossy surface: directions
 /// to 6.5e-5, reflectances and the inverse of an index of refraction to 8e-6.
-pub fn rounded(sphere: &SphericalLight) -> SphericalLight {
+pub fn rounded(sphere: &VirtualSphere) -> VirtualSphere {
     let mut light = sphere.light;
     if light.brdf.has_specular() {
         let round = |unit: &mut Vec3| *unit = unpack_direction(pack_direction(*unit));
@@ -18,7 +19,7 @@ pub fn rounded(sphere: &SphericalLight) -> SphericalLight {
         round(&mut light.incoming);
         light.brdf = rounded_brdf(light.brdf);
     }
-    SphericalLight { light, radius: sphere.radius }
+    VirtualSphere { light, radius: sphere.radius }
 }
 
 /// A sphere that emits alike in all directions: 48 bytes.
@@ -53,7 +54,7 @@ pub(crate) struct GlossyLight {
 }
 
 impl LambertLight {
-    pub(crate) fn new(sphere: &SphericalLight) -> Self {
+    pub(crate) fn new(sphere: &VirtualSphere) -> Self {
         let light = &sphere.light;
         let reflectance = emission::reflectance(light, light.normal.as_dvec3(), 1);
         Self {
@@ -67,7 +68,7 @@ impl LambertLight {
 }
 
 impl GlossyLight {
-    pub(crate) fn new(sphere: &SphericalLight, row: u32) -> Self {
+    pub(crate) fn new(sphere: &VirtualSphere, row: u32) -> Self {
         let light = &sphere.light;
         let directions = [light.geometric_normal, light.normal, light.incoming];
         Self {

@@ -3,15 +3,17 @@
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use glam::DVec3;
-use manylights_gpu::{SphericalLight, SurfaceRecord};
+use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_harmonics::zonal::{Cap, cap_stable, evaluate, rotate};
 use manylights_harmonics::{Basis, count, even_index, index};
 use manylights_scene::{DBrdf, Lobe};
+use manylights_virtual_lights::VirtualSphere;
 
-use crate::lobes::LobeTable;
-use crate::zonal::ZonalTable;
-use crate::{Form, LobeShape, Settings, diffuse, emission, horizon};
+use crate::{Settings, emission, horizon};
+use manylights_reflectance::lobes::LobeTable;
+use manylights_reflectance::zonal::ZonalTable;
+use manylights_reflectance::{Form, LobeShape, diffuse};
 
 /// As in the shader: stands for the sine of a sphere without extent.
 const SMALLEST_SINE: f64 = 1e-9;
@@ -21,14 +23,14 @@ const SMALLEST_SINE: f64 = 1e-9;
 pub fn radiance(
     surface: &SurfaceRecord,
     camera: DVec3,
-    lights: &[SphericalLight],
+    lights: &[VirtualSphere],
     settings: &Settings,
 ) -> DVec3 {
     if surface.triangle == SurfaceRecord::NO_TRIANGLE {
         return DVec3::ZERO;
     }
     let receiver = Receiver::new(surface, camera, settings);
-    let sum = |sphere: &SphericalLight| {
+    let sum = |sphere: &VirtualSphere| {
         let Some(seen) = Seen::new(surface, sphere, settings.emission_bands) else {
             return DVec3::ZERO;
         };
@@ -42,7 +44,7 @@ pub fn radiance(
 pub fn by_quadrature(
     surface: &SurfaceRecord,
     camera: DVec3,
-    sphere: &SphericalLight,
+    sphere: &VirtualSphere,
     share: impl Fn(f64, Cap<f64>) -> f64,
     nodes: usize,
 ) -> DVec3 {
@@ -73,11 +75,7 @@ struct Seen {
 
 impl Seen {
     /// `None` where nothing arrives.
-    fn new(
-        surface: &SurfaceRecord,
-        sphere: &SphericalLight,
-        emission_bands: usize,
-    ) -> Option<Self> {
+    fn new(surface: &SurfaceRecord, sphere: &VirtualSphere, emission_bands: usize) -> Option<Self> {
         let light = &sphere.light;
         let offset = light.position.as_dvec3() - surface.position.as_dvec3();
         // A light at the shaded point itself has no direction.

@@ -1,6 +1,7 @@
-use manylights_gpu::RadiusRule;
 use manylights_harmonics::window::Window;
 use manylights_method::{ParameterInfo, ParameterKind, Parameters};
+use manylights_reflectance::{Damping, Form};
+use manylights_virtual_lights::RadiusRule;
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     ParameterInfo::LIGHTS,
@@ -36,28 +37,6 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
 
 /// The most bands that the thesis uses, and that the tests cover.
 pub const MAX_BANDS: usize = 20;
-
-/// What the reflectance of the shaded point is expanded in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// Spherical harmonics: any isotropic lobe.
-    Full,
-    /// Zonal harmonics about the lobe's own axis: one circular lobe, and the Lambertian one in closed
-    /// form (thesis 5.2.7).
-    Zonal,
-}
-
-/// What the bands of the reflectance are damped by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Damping {
-    /// Nothing.
-    None,
-    /// A window as wide as the expansion.
-    Window(Window),
-    /// For each row of a table the weakest [`Window::SincFourth`] under which it is not negative
-    /// ([`manylights_harmonics::dering`]).
-    Weakest,
-}
 
 /// How the share of a sphere above the receiver's horizon is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

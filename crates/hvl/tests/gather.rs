@@ -6,11 +6,13 @@ use common::{
     FORMS, GPU, SETTINGS, dielectric, glossy, light, metal, oblique, render, surface, worst,
 };
 use glam::Vec3;
-use manylights_gpu::{Center, GpuFrame, RadiusRule, Shadows};
+use manylights_gpu::{Center, GpuFrame, Shadows};
 use manylights_harmonics::window::Window;
-use manylights_hvl::{Damping, Form, Horizon, Settings, gather, oracle};
-use manylights_method::Visibility;
+use manylights_hvl::{Horizon, Settings, gather, oracle};
+use manylights_reflectance::{Damping, Form};
 use manylights_scene::Brdf;
+use manylights_scene::Visibility;
+use manylights_virtual_lights::RadiusRule;
 
 #[test]
 fn every_form_on_every_pair_of_lobes() {

@@ -6,10 +6,12 @@ use std::f32::consts::FRAC_PI_2;
 
 use common::{GPU, SETTINGS, glossy, light, metal, render, surface};
 use glam::Vec3;
-use manylights_gpu::{RadiusRule, SurfaceRecord};
-use manylights_hvl::{Form, Horizon, Settings, SphericalLight, gather};
-use manylights_method::Visibility;
+use manylights_gpu::SurfaceRecord;
+use manylights_hvl::{Horizon, Settings, VirtualSphere, gather};
+use manylights_reflectance::Form;
 use manylights_scene::Brdf;
+use manylights_scene::Visibility;
+use manylights_virtual_lights::RadiusRule;
 
 const CAMERA: Vec3 = Vec3::new(0.6, 1.0, -0.2);
 
@@ -25,7 +27,7 @@ fn all_settings() -> [Settings; 4] {
     ]
 }
 
-fn radiance(surface: SurfaceRecord, sphere: SphericalLight, settings: &Settings) -> f32 {
+fn radiance(surface: SurfaceRecord, sphere: VirtualSphere, settings: &Settings) -> f32 {
     let pixels = gather(&GPU, &[surface], CAMERA, &[sphere], settings).expect("a gather");
     pixels[0][0]
 }

@@ -3,11 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::Vec3;
-use manylights_gpu::VirtualLight;
 use manylights_harmonics::zonal::Cap;
 use manylights_hvl::horizon::above;
-use manylights_hvl::{Horizon, SphericalLight, rounded};
+use manylights_hvl::{Horizon, VirtualSphere, rounded};
 use manylights_scene::{Brdf, Lobe};
+use manylights_virtual_lights::VirtualLight;
 
 fn cap(a: f64) -> Cap<f64> {
     Cap { sine: a.sin(), cosine: a.cos() }
@@ -64,7 +64,7 @@ fn indices_of_refraction_are_rounded_once() {
         let normals = [Vec3::Z; 2];
         let [geometric_normal, normal] = normals;
         let light = VirtualLight { position, geometric_normal, normal, incoming, flux, brdf };
-        let once = rounded(&SphericalLight { light, radius: 0.1 });
+        let once = rounded(&VirtualSphere { light, radius: 0.1 });
         assert_eq!(rounded(&once).light.brdf, once.light.brdf);
         let Lobe::Dielectric { index: found } = once.light.brdf.lobe else {
             panic!("{index}: {:?}", once.light.brdf);
@@ -95,8 +95,8 @@ fn rounding_is_small_and_happens_once() {
             flux: Vec3::ONE,
             brdf,
         };
-        let once = rounded(&SphericalLight { light, radius: 0.1 }).light;
-        let twice = rounded(&SphericalLight { light: once, radius: 0.1 }).light;
+        let once = rounded(&VirtualSphere { light, radius: 0.1 }).light;
+        let twice = rounded(&VirtualSphere { light: once, radius: 0.1 }).light;
         assert_eq!(once.normal, twice.normal, "{unit}");
         assert_eq!(once.brdf, twice.brdf);
         worst = worst.max((once.normal - unit).length());

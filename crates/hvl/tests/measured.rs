@@ -8,14 +8,17 @@ mod tensor;
 
 use common::{GPU, SETTINGS, dielectric, glossy, light, oblique, surface, worst};
 use glam::{DVec3, Vec3};
-use manylights_gpu::{GpuFrame, SurfaceRecord, VirtualLight};
+use manylights_gpu::{GpuFrame, SurfaceRecord};
 use manylights_harmonics::quadrature::sphere;
 use manylights_harmonics::{Basis, count, even_count, even_index, index};
 use manylights_hvl::emission::reflectance;
-use manylights_hvl::lobes::{LobeTable, NODES};
-use manylights_hvl::{Damping, Hvl, LobeShape, Settings, oracle, spherical_lights};
-use manylights_method::{Error, Frame, Method, Parameters, Transport, Visibility};
+use manylights_hvl::{Hvl, Settings, oracle, virtual_spheres};
+use manylights_method::{Error, Frame, Method, Parameters};
+use manylights_reflectance::lobes::{LobeTable, NODES};
+use manylights_reflectance::{Damping, LobeShape};
 use manylights_scene::{Brdf, DBrdf, Lobe, Measured, Scene};
+use manylights_scene::{Transport, Visibility};
+use manylights_virtual_lights::{VirtualLight, VirtualLights};
 
 fn load(file: &[u8]) -> Brdf {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -222,20 +225,20 @@ fn on_satin(check: impl FnOnce(&Frame<'_>, &Scene)) {
 }
 
 fn parameters(texts: &[(&'static str, &'static str)]) -> Parameters {
-    Parameters::new(Hvl.parameters(), texts.iter().copied()).expect("in range")
+    Parameters::new(VirtualLights(Hvl).parameters(), texts.iter().copied()).expect("in range")
 }
 
 #[test]
 fn a_picture_agrees_with_the_oracle() {
     on_satin(|frame, scene| {
         let chosen = parameters(&[("emission_bands", "3"), ("lights", "100")]);
-        let mut run = Hvl.prepare(frame, &chosen).expect("hvl renders the scene");
+        let mut run = VirtualLights(Hvl).prepare(frame, &chosen).expect("hvl renders the scene");
         while !run.step().expect("a step").finished() {}
         let image = run.resolve().expect("a picture");
         let on_gpu = frame.gpu.expect("given");
         let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("a G-buffer");
         let settings = Settings { lights: 100, emission_bands: 3, ..Settings::default() };
-        let (lights, _) = spherical_lights(on_gpu, scene, &settings, 0).expect("lights");
+        let (lights, _) = virtual_spheres(on_gpu, scene, &settings, 0).expect("lights");
         let measured = |brdf: Brdf| matches!(brdf.lobe, Lobe::Measured(_));
         assert!(surfaces.iter().any(|surface| measured(surface.brdf())), "none in the picture");
         assert!(lights.iter().any(|sphere| measured(sphere.light.brdf)), "none under a light");
@@ -256,7 +259,7 @@ fn settings_that_do_not_know_measurements_say_so() {
         for (texts, word) in
             [(&[][..], "emission_bands"), (&[("emission_bands", "1"), ("form", "1")], "form")]
         {
-            match Hvl.prepare(frame, &parameters(texts)).err() {
+            match VirtualLights(Hvl).prepare(frame, &parameters(texts)).err() {
                 Some(Error::Declined(reason)) => assert!(reason.contains(word), "{reason}"),
                 other => panic!("{other:?}"),
             }

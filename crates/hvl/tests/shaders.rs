@@ -4,7 +4,8 @@ mod common;
 
 use common::{FORMS, GPU, SETTINGS};
 use manylights_gpu::Binding;
-use manylights_hvl::{Form, Horizon, Lobes, Settings, linked_shader};
+use manylights_hvl::{Horizon, Lobes, Settings, linked_shader};
+use manylights_reflectance::Form;
 
 const LAMBERT: Lobes = Lobes {
     receivers: false,

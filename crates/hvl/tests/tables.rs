@@ -3,16 +3,16 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::VirtualLight;
 use manylights_harmonics::quadrature::sphere;
 use manylights_harmonics::window::Window;
 use manylights_harmonics::zonal::evaluate;
 use manylights_harmonics::{Basis, count, even_count, index};
 use manylights_hvl::emission::{EmissionTable, reflectance, terms};
-use manylights_hvl::lobes::{ANGLES, LobeTable, NODES};
-use manylights_hvl::zonal::ZonalTable;
-use manylights_hvl::{Damping, diffuse};
+use manylights_reflectance::lobes::{ANGLES, LobeTable, NODES};
+use manylights_reflectance::zonal::ZonalTable;
+use manylights_reflectance::{Damping, diffuse};
 use manylights_scene::{Brdf, DBrdf, Lobe};
+use manylights_virtual_lights::VirtualLight;
 use rayon::prelude::*;
 
 const BANDS: usize = 6;

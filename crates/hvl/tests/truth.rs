@@ -6,11 +6,12 @@ use common::{FORMS, SETTINGS, dielectric, glossy, light, surface};
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::zonal::Cap;
-use manylights_hvl::{Form, Horizon, Settings, SphericalLight, horizon, oracle};
+use manylights_hvl::{Horizon, Settings, VirtualSphere, horizon, oracle};
+use manylights_reflectance::Form;
 use manylights_scene::Brdf;
 
 /// A light well above the horizon, seen from a surface of this reflectance.
-fn clear_view(brdf: Brdf, radius: f32) -> (SurfaceRecord, DVec3, SphericalLight) {
+fn clear_view(brdf: Brdf, radius: f32) -> (SurfaceRecord, DVec3, VirtualSphere) {
     let sphere = light(Vec3::new(0.4, 1.0, 0.1), -Vec3::Y, Brdf::lambert(Vec3::ONE), radius);
     (surface(Vec3::ZERO, Vec3::Y, brdf), DVec3::new(-0.9, 1.0, 0.2), sphere)
 }

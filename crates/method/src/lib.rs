@@ -3,17 +3,13 @@
 //! A method never sees the clock, the budget, the reference or the file system. It is progressive:
 //! [`Method::prepare`], then [`Run::step`] until it says that it is done, then [`Run::resolve`].
 
-mod many_lights;
 mod parameters;
-mod transport;
 
 use manylights_gpu::GpuFrame;
 use manylights_metrics::RadianceImage;
-use manylights_scene::{Camera, Scene};
+use manylights_scene::{Camera, Scene, Transport, Visibility};
 
-pub use many_lights::{ManyLightFrame, ManyLightMethod, ManyLightRun, PlacedLights};
 pub use parameters::{ParameterInfo, ParameterKind, Parameters};
-pub use transport::{Transport, Visibility};
 
 /// Where the work of a method is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,9 +9,10 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use manylights_method::{Frame, Method, Parameters, Transport};
+use manylights_method::{Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer::{PathTracer, SLICE, Settings, render};
+use manylights_scene::Transport;
 use manylights_scene::bvh::{Bvh, Ray};
 use manylights_scene::{Camera, Scene, load};
 

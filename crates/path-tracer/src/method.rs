@@ -4,12 +4,13 @@ use std::time::Instant;
 
 use manylights_method::{
     Error, Frame, Method, ParameterInfo, ParameterKind, Parameters, PassTime, Processor, Progress,
-    Run, Visibility,
+    Run,
 };
 use manylights_metrics::RadianceImage;
+use manylights_scene::Visibility;
 
 use crate::picture::Picture;
-use crate::sampler::SLICE;
+use manylights_paths::SLICE;
 
 /// The path tracer, as a method: `reference`.
 #[derive(Clone, Copy, Debug)]

@@ -1,16 +1,15 @@
 //! A picture in the making: primary hits, exact parts, sums over slices.
 
 use glam::Vec3;
-use manylights_method::{Transport, Visibility};
 use manylights_metrics::RadianceImage;
 use manylights_scene::bvh::{Hit, Ray};
 use manylights_scene::{Camera, Scene};
+use manylights_scene::{Transport, Visibility};
 use rayon::prelude::*;
 
 use crate::Error;
-use crate::sampler::{SLICE, Sampler};
 use crate::sums::{self, Sums};
-use crate::tracer::Tracer;
+use manylights_paths::{SLICE, Sampler, Tracer};
 
 /// Longest side and most pixels of a picture.
 const MAX_SIDE: u32 = 1 << 16;

@@ -3,10 +3,10 @@
 //! which is also the limit of the virtual lights: no directions are drawn, nothing is weighed.
 
 use glam::Vec3;
-use manylights_method::{Transport, Visibility};
 use manylights_path_tracer::{Settings, render};
 use manylights_scene::bvh::{Bvh, Ray};
 use manylights_scene::{Light, Scene, SurfacePoint, load};
+use manylights_scene::{Transport, Visibility};
 
 const RESOLUTION: [u32; 2] = [8, 6];
 

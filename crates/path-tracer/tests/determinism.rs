@@ -1,10 +1,12 @@
 //! Same seed, same picture, bit for bit; loud ends.
 
 use glam::Vec3;
-use manylights_method::{Frame, Method, Parameters, Processor, Transport, Visibility};
-use manylights_path_tracer::{Error, PathTracer, Reference, SLICE, Settings, content_hash, render};
+use manylights_method::{Frame, Method, Parameters, Processor};
+use manylights_path_tracer::{Error, PathTracer, Reference, SLICE, Settings, render};
+use manylights_scene::content_hash;
 use manylights_scene::presets::PRESETS;
 use manylights_scene::{Brdf, Light, Measured, Scene, load};
+use manylights_scene::{Transport, Visibility};
 
 #[path = "../../scene/tests/common/tensor.rs"]
 mod tensor;

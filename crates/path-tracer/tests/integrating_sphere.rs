@@ -4,10 +4,10 @@
 use std::f32::consts::PI;
 
 use glam::Vec3;
-use manylights_method::{Transport, Visibility};
 use manylights_path_tracer::{Reference, Settings, render};
 use manylights_scene::builtin::integrating_sphere::{ALBEDO, INTENSITY, RADIUS};
 use manylights_scene::{Light, Scene, load};
+use manylights_scene::{Transport, Visibility};
 
 /// Bound of the relative error that flat facets cause. Their centres are nearer to the light than R
 /// by δ, which raises its irradiance by 2δ/R; and of the light that the smooth normal gathers, the

@@ -17,6 +17,7 @@
 //!
 //! The text exists once and is compiled in f32 ([`Brdf`]) and f64 ([`DBrdf`], the oracle).
 
+use crate::measured::Estimate;
 use crate::{Lobe, Measured};
 
 macro_rules! brdf {
@@ -195,5 +196,14 @@ impl From<Brdf> for DBrdf {
             lobe: brdf.lobe,
             alpha: brdf.alpha.into(),
         }
+    }
+}
+
+impl Measured {
+    /// The reflectance. `alpha`, `f0` and `diffuse` are those of a GGX and a Lambertian lobe that
+    /// share out its albedo: what samplers follow; [`Brdf::eval`] reads the table.
+    pub fn brdf(self) -> Brdf {
+        let Estimate { diffuse, f0, alpha } = self.estimate();
+        Brdf { diffuse, f0, alpha, lobe: Lobe::Measured(self) }
     }
 }

@@ -17,8 +17,10 @@ use std::time::Duration;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;
 use manylights_gpu::{Gpu, GpuFrame};
-use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_method::{Frame, Method, Parameters};
 use manylights_scene::Material;
+use manylights_scene::{Transport, Visibility};
+use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 
 const RESOLUTION: [u32; 2] = [256, 256];
@@ -26,7 +28,7 @@ const LIGHTS: u64 = 1024;
 
 /// Adapter seconds of the gather passes, and the lights summed.
 fn gather(frame: &Frame<'_>, parameters: &Parameters) -> (f64, u64) {
-    let mut run = Vpl.prepare(frame, parameters).expect("vpl renders the scene");
+    let mut run = VirtualLights(Vpl).prepare(frame, parameters).expect("vpl renders the scene");
     while !run.step().expect("a step").finished() {}
     let seconds = run.pass_times().iter().find(|t| t.pass == "gather").map_or(0.0, |t| t.seconds);
     (seconds, run.counters()[0].1)
@@ -41,7 +43,8 @@ fn benchmark(criterion: &mut Criterion) {
         gpu.report().driver_info
     );
     let lights = LIGHTS.to_string();
-    let parameters = Parameters::new(Vpl.parameters(), [("lights", &*lights)]).expect("in range");
+    let parameters =
+        Parameters::new(VirtualLights(Vpl).parameters(), [("lights", &*lights)]).expect("in range");
     let mut group = criterion.benchmark_group("vpl gather");
     for (name, lobes) in [("cornell", "L/L"), ("cornell", "GGX/L"), ("trio", "GGX/GGX")] {
         let mut scene = manylights_scene::load(name, None).expect("built in");

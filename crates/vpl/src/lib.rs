@@ -9,7 +9,7 @@
 //! shaded point, or 1 with `visibility = ignored`. It converges to the reference of the same visibility.
 //!
 //! Deviations from the papers: each light carries its cell's exact solid angle, not power/count; the
-//! emitting cosine is that of the geometric normal (see [`manylights_gpu::VirtualLight::flux`]).
+//! emitting cosine is that of the geometric normal (see [`manylights_virtual_lights::VirtualLight::flux`]).
 //!
 //! Options, both off by default: `clamp` bounds the geometry term ⟨n_x·ω⟩⟨n_j·−ω⟩/d²; `radius` replaces
 //! 1/d² by Yuksel's attenuation (thesis 5.18).
@@ -20,10 +20,10 @@ pub mod oracle;
 mod params;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord, VirtualLight, distribute};
-use manylights_method::{
-    Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
-};
+use manylights_gpu::{Gpu, Reflectances, SurfaceRecord};
+use manylights_method::{Error, ParameterInfo, Parameters};
+use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun};
+use manylights_virtual_lights::{LightGather, VirtualLight, distribute};
 
 use gather::LAMBERT_CAPACITY;
 
@@ -34,10 +34,11 @@ pub use params::Settings;
 /// fewer; a batch is never cut.
 const PAIRS_A_STEP: u64 = 1 << 28;
 
-/// The method.
+/// The method is `VirtualLights(Vpl)`.
+#[derive(Clone, Copy, Debug)]
 pub struct Vpl;
 
-impl ManyLightMethod for Vpl {
+impl Estimator for Vpl {
     const ID: &'static str = "vpl";
     const TITLE: &'static str = "virtual point lights (Keller 1997; RSM placement)";
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;

@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::VirtualLight;
+use manylights_virtual_lights::VirtualLight;
 
 /// A light on a Lambertian surface: 48 bytes.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

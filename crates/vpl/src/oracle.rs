@@ -1,8 +1,9 @@
 //! The same estimator in f64 on the CPU.
 
 use glam::DVec3;
-use manylights_gpu::{SurfaceRecord, VirtualLight};
+use manylights_gpu::SurfaceRecord;
 use manylights_scene::DBrdf;
+use manylights_virtual_lights::VirtualLight;
 
 use crate::Settings;
 

@@ -3,8 +3,9 @@
 use std::sync::LazyLock;
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::{Gpu, SurfaceRecord, VirtualLight};
+use manylights_gpu::{Gpu, SurfaceRecord};
 use manylights_scene::{Brdf, Lobe, Measured};
+use manylights_virtual_lights::VirtualLight;
 use manylights_vpl::{Settings, gather, oracle};
 use proptest::prelude::*;
 

@@ -2,9 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{
-    Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, link,
-};
+use manylights_gpu::{Center, Error, Gpu, Reflectances, Shadows, link};
+use manylights_virtual_lights::{LightBatches, LightGather, Lights};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{GaussianLight, Settings, SpecularLobe};

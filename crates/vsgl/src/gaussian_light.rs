@@ -3,10 +3,11 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use manylights_gpu::{
-    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, LitTexel, LitTexels, PassTime, Reflectances,
-    Resource, SurfaceRecord, link, lit_texels, scene_maps,
+    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, PassTime, Reflectances, Resource,
+    SurfaceRecord, link,
 };
 use manylights_scene::{Brdf, Scene};
+use manylights_virtual_lights::{LIT_TEXEL, LitTexel, LitTexels, lit_texels, scene_maps};
 
 use crate::Settings;
 use crate::albedo::{ALBEDOS, ExactLobe, exact_lobes};
@@ -93,7 +94,7 @@ impl Materials {
 /// # Errors
 /// Where the shader does not link.
 pub fn filter_shader(kinds: &Reflectances) -> Result<String, Error> {
-    let modules = [("emission", include_str!("shaders/emission.wesl"))];
+    let modules = [LIT_TEXEL, ("emission", include_str!("shaders/emission.wesl"))];
     let features = [&[("specular", kinds.specular)][..], &kinds.features()].concat();
     link("filter", include_str!("shaders/filter.wesl"), &modules, &features)
 }

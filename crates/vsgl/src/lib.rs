@@ -64,10 +64,10 @@ pub mod oracle;
 mod params;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
-use manylights_method::{
-    Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
-};
+use manylights_gpu::{Gpu, Reflectances, SurfaceRecord};
+use manylights_method::{Error, ParameterInfo, Parameters};
+use manylights_virtual_lights::LightGather;
+use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun};
 
 use gather::LAMBERT_CAPACITY;
 use gaussian_light::{Materials, lights_of_materials};
@@ -80,10 +80,11 @@ pub use params::{Settings, SpecularLobe};
 /// watchdog on a fast one.
 const PAIRS_A_STEP: u64 = 1 << 26;
 
-/// The method.
+/// The method is `VirtualLights(Vsgl)`.
+#[derive(Clone, Copy, Debug)]
 pub struct Vsgl;
 
-impl ManyLightMethod for Vsgl {
+impl Estimator for Vsgl {
     const ID: &'static str = "vsgl";
     const TITLE: &'static str = "virtual spherical Gaussian lights (Tokuyoshi 2015)";
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;

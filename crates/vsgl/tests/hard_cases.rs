@@ -7,8 +7,9 @@ use std::f32::consts::FRAC_PI_2;
 
 use common::{FITTED, GPU, LOBES, SETTINGS, empty, glossy, lobe, preset, render, surface, texel};
 use glam::Vec3;
-use manylights_gpu::{LitTexel, SurfaceRecord};
+use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;
+use manylights_virtual_lights::LitTexel;
 use manylights_vsgl::{GaussianLight, Lobe, Settings, filter_group, gather, oracle};
 
 const CAMERA: Vec3 = Vec3::new(0.6, 1.0, -0.2);

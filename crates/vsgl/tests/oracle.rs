@@ -4,8 +4,9 @@ mod common;
 
 use common::{GPU, LOBES, Picture, SETTINGS, fitted, glossy, lobe, render, render_scene, surface};
 use glam::Vec3;
-use manylights_gpu::{GpuFrame, LitTexel, SurfaceRecord, lit_texels, scene_maps};
+use manylights_gpu::{GpuFrame, SurfaceRecord};
 use manylights_scene::{Brdf, Scene};
+use manylights_virtual_lights::{LitTexel, lit_texels, scene_maps};
 use manylights_vsgl::{GaussianLight, Lobe, Settings, gather, gaussian_lights, oracle};
 
 /// Largest difference of a pixel, relative to the picture's largest component.

@@ -6,9 +6,10 @@ use std::f64::consts::PI;
 
 use common::{FITTED, GPU, SETTINGS, glossy, preset, surface, texel};
 use glam::{DVec3, Vec3};
-use manylights_gpu::{LitTexel, SurfaceRecord, VirtualLight};
+use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_scene::{Brdf, DBrdf};
+use manylights_virtual_lights::{LitTexel, VirtualLight};
 use manylights_vsgl::oracle::gaussian::{Gaussian, integral};
 use manylights_vsgl::oracle::{DIFFUSE_SHARPNESS, filter};
 use manylights_vsgl::{GaussianLight, filter_group, gather};

@@ -2,12 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{
-    Center, Error, Gpu, LightBatches, LightGather, Lights, Reflectances, Shadows, link,
-};
+use manylights_gpu::{Center, Error, Gpu, Reflectances, Shadows, link};
+use manylights_virtual_lights::{LightBatches, LightGather, Lights};
 
 use crate::light_record::{GlossyLight, LambertLight};
-use crate::{Settings, SphericalLight};
+use crate::{Settings, VirtualSphere};
 
 /// Lights a batch, as `shaders/gather.wesl` declares its array. Work on a light outweighs reading it,
 /// so batches are small: with many samples one may take a second.
@@ -55,7 +54,7 @@ struct View {
 /// Where the adapter refuses.
 pub(crate) fn batches(
     gather: &LightGather,
-    lights: &[SphericalLight],
+    lights: &[VirtualSphere],
     seed: u64,
 ) -> Result<LightBatches, Error> {
     let indexed = lights.iter().enumerate();

@@ -17,7 +17,7 @@
 //! of each (the balance heuristic). Narrow cones are met by few samples of the lobes: they alone are
 //! noisy where lights are many.
 //!
-//! Radii: see [`RadiusRule`](manylights_gpu::RadiusRule); all are scaled by the user's factor.
+//! Radii: see [`RadiusRule`](manylights_virtual_lights::RadiusRule); all are scaled by the user's factor.
 //!
 //! Deviations from the papers:
 //! - The authors' shader also samples the light's own lobe, and takes more samples for wider cones;
@@ -41,29 +41,30 @@ mod light_record;
 mod noise;
 pub mod oracle;
 mod params;
-mod spherical_light;
+mod virtual_sphere;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, LightGather, Reflectances, SurfaceRecord};
-use manylights_method::{
-    Error, ManyLightFrame, ManyLightMethod, ManyLightRun, ParameterInfo, Parameters,
-};
+use manylights_gpu::{Gpu, Reflectances, SurfaceRecord};
+use manylights_method::{Error, ParameterInfo, Parameters};
+use manylights_virtual_lights::LightGather;
+use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun};
 
 use gather::CAPACITY;
 
 pub use gather::linked_shader;
-pub use manylights_gpu::SphericalLight;
+pub use manylights_virtual_lights::VirtualSphere;
 pub use params::{Sampling, Settings};
-pub use spherical_light::spherical_lights;
+pub use virtual_sphere::virtual_spheres;
 
 /// Directions in one submission, about a second on a slow processor, where a batch has fewer; a batch
 /// is never cut.
 const DIRECTIONS_A_STEP: u64 = 1 << 26;
 
-/// The method.
+/// The method is `VirtualLights(Vsl)`.
+#[derive(Clone, Copy, Debug)]
 pub struct Vsl;
 
-impl ManyLightMethod for Vsl {
+impl Estimator for Vsl {
     const ID: &'static str = "vsl";
     const TITLE: &'static str = "virtual spherical lights (Hašan et al. 2009)";
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
@@ -81,7 +82,7 @@ impl ManyLightMethod for Vsl {
         let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
         let batches_a_step = DIRECTIONS_A_STEP / directions_a_batch;
         let place = move |gather: &LightGather| {
-            let (lights, times) = spherical_lights(on_gpu, scene, &settings, seed)?;
+            let (lights, times) = virtual_spheres(on_gpu, scene, &settings, seed)?;
             Ok((gather::batches(gather, &lights, seed)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
@@ -98,7 +99,7 @@ pub fn gather(
     gpu: &Gpu,
     surfaces: &[SurfaceRecord],
     camera: Vec3,
-    lights: &[SphericalLight],
+    lights: &[VirtualSphere],
     settings: &Settings,
     seed: u64,
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {

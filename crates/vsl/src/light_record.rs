@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::SphericalLight;
+use crate::VirtualSphere;
 use crate::noise::light_key;
 
 /// What all lights have: 48 bytes.
@@ -43,8 +43,8 @@ pub(crate) struct GlossyLight {
 
 impl LambertLight {
     /// The light of this index in the picture's list.
-    pub(crate) fn new(index: usize, sphere: &SphericalLight, seed: u64) -> Self {
-        let SphericalLight { light, radius } = sphere;
+    pub(crate) fn new(index: usize, sphere: &VirtualSphere, seed: u64) -> Self {
+        let VirtualSphere { light, radius } = sphere;
         Self {
             position: light.position,
             radius2: radius * radius,
@@ -57,7 +57,7 @@ impl LambertLight {
 }
 
 impl GlossyLight {
-    pub(crate) fn new(index: usize, sphere: &SphericalLight, seed: u64) -> Self {
+    pub(crate) fn new(index: usize, sphere: &VirtualSphere, seed: u64) -> Self {
         let light = &sphere.light;
         let brdf = &light.brdf;
         let view_n = light.normal.dot(light.incoming);

@@ -3,11 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec2, DVec3};
-use manylights_gpu::{SurfaceRecord, VirtualLight};
+use manylights_gpu::SurfaceRecord;
 use manylights_scene::DBrdf;
+use manylights_virtual_lights::VirtualLight;
 
 use crate::noise::{light_key, samples};
-use crate::{Sampling, Settings, SphericalLight};
+use crate::{Sampling, Settings, VirtualSphere};
 
 /// Radiance of the surface at `pixel` towards `camera`, summed over `lights`: the estimator of the
 /// crate's head, in f64, from the same f32 inputs.
@@ -15,7 +16,7 @@ pub fn radiance(
     pixel: usize,
     surface: &SurfaceRecord,
     camera: DVec3,
-    lights: &[SphericalLight],
+    lights: &[VirtualSphere],
     settings: &Settings,
     seed: u64,
 ) -> DVec3 {
@@ -69,7 +70,7 @@ impl Receiver {
     }
 
     /// The cone of a sphere; none for a point light at the shaded point.
-    pub fn cone(&self, sphere: &SphericalLight) -> Option<Cone> {
+    pub fn cone(&self, sphere: &VirtualSphere) -> Option<Cone> {
         let radius2 = f64::from(sphere.radius).powi(2);
         let offset = sphere.light.position.as_dvec3() - self.position;
         let distance2 = offset.length_squared();
@@ -101,7 +102,7 @@ impl Receiver {
 
     fn estimate(
         &self,
-        sphere: &SphericalLight,
+        sphere: &VirtualSphere,
         settings: &Settings,
         samples: impl Iterator<Item = [f64; 2]>,
     ) -> DVec3 {

@@ -1,5 +1,5 @@
-use manylights_gpu::RadiusRule;
 use manylights_method::{ParameterInfo, ParameterKind, Parameters};
+use manylights_virtual_lights::RadiusRule;
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     ParameterInfo::LIGHTS,

@@ -6,14 +6,15 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use common::{GPU, SETTINGS, glossy, light, render};
 use glam::Vec3;
-use manylights_gpu::{RadiusRule, SurfaceRecord};
+use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;
-use manylights_vsl::{Sampling, Settings, SphericalLight, gather};
+use manylights_virtual_lights::RadiusRule;
+use manylights_vsl::{Sampling, Settings, VirtualSphere, gather};
 
 const CAMERA: Vec3 = Vec3::new(0.6, 1.0, -0.2);
 const SAMPLINGS: [Sampling; 3] = [Sampling::Brdf, Sampling::Cone, Sampling::Both];
 
-fn radiance(surface: SurfaceRecord, sphere: SphericalLight, settings: &Settings) -> f32 {
+fn radiance(surface: SurfaceRecord, sphere: VirtualSphere, settings: &Settings) -> f32 {
     let pixels = gather(&GPU, &[surface], CAMERA, &[sphere], settings, 0).expect("a gather");
     pixels[0][0]
 }

@@ -6,7 +6,7 @@ mod tensor;
 
 use common::{Picture, SETTINGS, render};
 use glam::{DVec3, Vec3};
-use manylights_gpu::RadiusRule;
+use manylights_virtual_lights::RadiusRule;
 use manylights_vsl::{Sampling, Settings};
 
 /// How a picture differs from its oracle.

@@ -1,7 +1,8 @@
 //! What the linked WGSL holds.
 
-use manylights_gpu::{Binding, Gpu, RadiusRule, Reflectances};
+use manylights_gpu::{Binding, Gpu, Reflectances};
 use manylights_scene::Measured;
+use manylights_virtual_lights::RadiusRule;
 use manylights_vsl::{Sampling, Settings, linked_shader};
 
 const SAMPLINGS: [Sampling; 3] = [Sampling::Brdf, Sampling::Cone, Sampling::Both];

@@ -9,13 +9,13 @@ use glam::{DVec2, DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;
 use manylights_vsl::oracle::Receiver;
-use manylights_vsl::{Sampling, Settings, SphericalLight, gather, oracle};
+use manylights_vsl::{Sampling, Settings, VirtualSphere, gather, oracle};
 
 const CAMERA: Vec3 = Vec3::new(0.6, 1.0, -0.2);
 const SAMPLINGS: [Sampling; 3] = [Sampling::Brdf, Sampling::Cone, Sampling::Both];
 
 /// Φ/(πr²) times the integral over the cone, by the midpoint rule on `side`² cells.
-fn quadrature(surface: &SurfaceRecord, sphere: &SphericalLight, side: u32) -> DVec3 {
+fn quadrature(surface: &SurfaceRecord, sphere: &VirtualSphere, side: u32) -> DVec3 {
     let receiver = Receiver::new(surface, CAMERA.as_dvec3());
     let Some(cone) = receiver.cone(sphere) else { return DVec3::ZERO };
     let middle = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
@@ -30,7 +30,7 @@ fn quadrature(surface: &SurfaceRecord, sphere: &SphericalLight, side: u32) -> DV
 }
 
 /// Pairs of a surface and a light that faces it: outside the sphere, near its edge, inside it.
-fn pairs() -> Vec<(String, SurfaceRecord, SphericalLight)> {
+fn pairs() -> Vec<(String, SurfaceRecord, VirtualSphere)> {
     let materials = [("Lambert", Brdf::lambert(Vec3::splat(0.5))), ("GGX 0.6", glossy(0.6))];
     let places = [
         ("far", Vec3::new(-0.9, 1.2, 0.3), 0.5),
@@ -146,7 +146,7 @@ fn nine_samples_are_right_on_average() {
 /// exact, better than both.)
 #[test]
 fn the_balance_heuristic_saves_either_strategy() {
-    let deviation = |brdf: Brdf, sphere: &SphericalLight, sampling| {
+    let deviation = |brdf: Brdf, sphere: &VirtualSphere, sampling| {
         let settings = Settings { sampling, ..SETTINGS };
         let surfaces = [SurfaceRecord::new(Vec3::ZERO, Vec3::Y, brdf); 4096];
         let pixels = gather(&GPU, &surfaces, CAMERA, &[*sphere], &settings, 0).expect("a gather");

@@ -1,8 +1,9 @@
 //! The hard cases, alike for every method.
 
 use glam::{Quat, Vec3};
-use manylights_gpu::{SurfaceRecord, VirtualLight};
+use manylights_gpu::SurfaceRecord;
 use manylights_scene::{Brdf, Lobe};
+use manylights_virtual_lights::VirtualLight;
 
 /// A surface and a light; `extent` is the radius of a sphere, half the side of a cloud of texels.
 pub(crate) struct Pair {

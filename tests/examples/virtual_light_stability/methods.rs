@@ -1,8 +1,10 @@
 //! How each method is measured.
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::{Error, Gpu, LitTexel, SphericalLight, SurfaceRecord, VirtualLight};
+use manylights_gpu::{Error, Gpu, SurfaceRecord};
+use manylights_reflectance::Form;
 use manylights_scene::Brdf;
+use manylights_virtual_lights::{LitTexel, VirtualLight, VirtualSphere};
 use manylights_vsgl::{GaussianLight, SpecularLobe};
 use {
     manylights_hvl as hvl, manylights_vpl as vpl, manylights_vsgl as vsgl, manylights_vsl as vsl,
@@ -106,7 +108,7 @@ fn measure_vpl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
 
 fn measure_vsl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
     let Pair { surface, light, extent } = pair;
-    let spheres = [SphericalLight { light: *light, radius: *extent }];
+    let spheres = [VirtualSphere { light: *light, radius: *extent }];
     let settings = |sampling| vsl::Settings { samples: 25, sampling, ..vsl::Settings::default() };
     let value =
         |sampling| pixel(vsl::gather(gpu, &[*surface], camera, &spheres, &settings(sampling), 0));
@@ -120,9 +122,9 @@ fn measure_vsl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
 
 fn measure_hvl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
     let Pair { surface, light, extent } = pair;
-    let spheres = [hvl::rounded(&SphericalLight { light: *light, radius: *extent })];
+    let spheres = [hvl::rounded(&VirtualSphere { light: *light, radius: *extent })];
     let plain = hvl::Settings::default();
-    let zonal = hvl::Settings { form: hvl::Form::Zonal, ..plain };
+    let zonal = hvl::Settings { form: Form::Zonal, ..plain };
     let columns = [
         plain,
         hvl::Settings { horizon: hvl::Horizon::Exact, ..plain },
@@ -142,15 +144,15 @@ fn measure_hvl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
 
 /// What a white Lambertian surface sends if it and the light, on such a surface, face each other: where they
 /// do not, what is left may be rounding.
-fn white(surface: &SurfaceRecord, sphere: &SphericalLight, eye: DVec3) -> f64 {
+fn white(surface: &SurfaceRecord, sphere: &VirtualSphere, eye: DVec3) -> f64 {
     let brdf = Brdf::lambert(Vec3::ONE);
     let toward = sphere.light.position - surface.position;
     let toward = toward.try_normalize().unwrap_or(surface.normal);
     let surface = SurfaceRecord::new(surface.position, toward, brdf);
     let (geometric_normal, normal, incoming) = (-toward, -toward, -toward);
     let light = VirtualLight { geometric_normal, normal, incoming, brdf, ..sphere.light };
-    let settings = hvl::Settings { form: hvl::Form::Zonal, ..hvl::Settings::default() };
-    hvl::oracle::radiance(&surface, eye, &[SphericalLight { light, ..*sphere }], &settings)
+    let settings = hvl::Settings { form: Form::Zonal, ..hvl::Settings::default() };
+    hvl::oracle::radiance(&surface, eye, &[VirtualSphere { light, ..*sphere }], &settings)
         .max_element()
 }
 

@@ -1,8 +1,10 @@
 //! What is measured.
 
 use manylights_gpu::{Error, Operations, Reflectances, operations};
-use manylights_hvl::{Form, Hvl, Lobes};
+use manylights_hvl::{Hvl, Lobes};
 use manylights_method::Method;
+use manylights_reflectance::Form;
+use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 use manylights_vsgl::Vsgl;
 use manylights_vsl::{Sampling, Vsl};
@@ -38,17 +40,27 @@ pub(crate) fn columns(glossy: bool) -> Vec<Column> {
     let hvl = |name, form, cells, bands: usize| {
         let more = [("bands", bands.to_string()), ("form", (form as u32).to_string())];
         let operations = of_hvl(glossy, form, bands).expect("a shader");
-        Column { bands: Some(bands), ..column(name, &Hvl, cells, &more, Some(operations)) }
+        Column {
+            bands: Some(bands),
+            ..column(name, &VirtualLights(Hvl), cells, &more, Some(operations))
+        }
     };
     let points = of_vpl(&kinds).expect("a shader");
     let cones = of_vsl(&kinds).expect("a shader");
     let gaussians = of_vsgl(&kinds).expect("a shader");
     let mut columns = Vec::new();
-    columns.extend(CELLS.map(|cells| column("vpl", &Vpl, cells, &[], Some(points))));
-    columns.extend(CELLS.map(|cells| column("vsl sampling=0", &Vsl, cells, &vsl("0"), None)));
-    columns
-        .extend(CELLS.map(|cells| column("vsl sampling=1", &Vsl, cells, &vsl("1"), Some(cones))));
-    columns.extend(CELLS.map(|cells| column("vsgl", &Vsgl, cells, &[], Some(gaussians))));
+    columns.extend(CELLS.map(|cells| column("vpl", &VirtualLights(Vpl), cells, &[], Some(points))));
+    columns.extend(
+        CELLS.map(|cells| column("vsl sampling=0", &VirtualLights(Vsl), cells, &vsl("0"), None)),
+    );
+    columns.extend(
+        CELLS.map(|cells| {
+            column("vsl sampling=1", &VirtualLights(Vsl), cells, &vsl("1"), Some(cones))
+        }),
+    );
+    columns.extend(
+        CELLS.map(|cells| column("vsgl", &VirtualLights(Vsgl), cells, &[], Some(gaussians))),
+    );
     for (name, form) in [("hvl", Form::Full), ("hvl form=1", Form::Zonal)] {
         columns.extend(BANDS.map(|bands| hvl(name, form, 400, bands)));
         columns.extend([100, 1600].map(|cells| hvl(name, form, cells, 5)));

@@ -9,7 +9,7 @@ mod peak;
 use std::fmt::Write as _;
 
 use manylights_gpu::AdapterReport;
-use manylights_method::Visibility;
+use manylights_scene::Visibility;
 use manylights_tests::{GPU, Stage};
 
 use columns::{Column, columns};

@@ -2,16 +2,33 @@
 
 use std::path::Path;
 
-use crate::cell::{Cell, Outcome};
-use crate::cli::CheckArguments;
+use crate::answer::regression::{self, Moved};
+use crate::answer::statistics::median;
+use crate::commands::machine::Machine;
 use crate::commands::run;
 use crate::error::Failure;
-use crate::experiment::{self, Experiment, Profile};
-use crate::journal;
+use crate::measurement::cell::{Cell, Outcome};
+use crate::measurement::journal;
+use crate::measurement::session::Session;
 use crate::output::{self, print_json};
-use crate::regression::{self, Moved};
-use crate::session::Session;
-use crate::statistics::median;
+use crate::question::experiment::{self, Experiment, Profile};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct CheckArguments {
+    /// Folder of the baseline: its experiment.toml and cells.jsonl
+    #[arg(long, value_name = "DIR", default_value = "results/check")]
+    pub(crate) baseline: PathBuf,
+    /// Makes what comes out the new baseline
+    #[arg(long)]
+    pub(crate) bless: bool,
+    /// What moved, as JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) machine: Machine,
+}
 
 /// Runs the quick profile of the baseline's experiment afresh and compares. With `--bless`, what came
 /// out becomes the baseline.

@@ -4,12 +4,31 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use crate::cell::{Cell, Done, Outcome};
-use crate::cli::{ExportArguments, Tracker};
+use crate::answer::statistics::{Quartiles, quartiles};
 use crate::error::Failure;
-use crate::journal;
+use crate::measurement::cell::{Cell, Done, Outcome};
+use crate::measurement::journal;
 use crate::output::print_json;
-use crate::statistics::{Quartiles, quartiles};
+use clap::Args;
+use std::path::PathBuf;
+
+/// A service that tracks benchmarks.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Tracker {
+    /// Bencher Metric Format
+    Bencher,
+    /// customSmallerIsBetter
+    GithubActionBenchmark,
+}
+
+#[derive(Args)]
+pub(crate) struct ExportArguments {
+    /// Folder of results
+    pub(crate) directory: PathBuf,
+    /// Of which tracker
+    #[arg(long, value_enum)]
+    pub(crate) format: Tracker,
+}
 
 /// Prints the medians of a folder of results.
 ///

@@ -6,11 +6,28 @@ use manylights_method::{Method, ParameterInfo, ParameterKind, Processor};
 use manylights_scene::SceneKind;
 use serde_json::{Value, json};
 
-use crate::cli::{ListArguments, Listed};
 use crate::error::Failure;
-use crate::experiment;
 use crate::output::print_json;
+use crate::question::experiment;
 use crate::registry::METHODS;
+use clap::Args;
+
+/// What `list` shows.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Listed {
+    Methods,
+    Scenes,
+    Experiments,
+}
+
+#[derive(Args)]
+pub(crate) struct ListArguments {
+    /// What to list
+    pub(crate) what: Listed,
+    /// As JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// Where `list experiments` looks.
 const RESULTS: &str = "results";

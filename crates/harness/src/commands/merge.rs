@@ -2,14 +2,25 @@
 
 use std::path::Path;
 
-use crate::answer_files;
-use crate::cell::{Cell, Outcome};
-use crate::cli::MergeArguments;
 use crate::error::Failure;
-use crate::journal::{self, Journal};
+use crate::measurement::cell::{Cell, Outcome};
+use crate::measurement::journal::{self, Journal};
+use crate::measurement::scene_cells::image_path;
 use crate::output;
-use crate::report::{self, Loaded};
-use crate::session::image_path;
+use crate::show::answer_files;
+use crate::show::report::{self, Loaded};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct MergeArguments {
+    /// Folders of results of one experiment
+    #[arg(required = true)]
+    pub(crate) directories: Vec<PathBuf>,
+    /// Folder of the merged results
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+}
 
 /// Brings the results of several folders, from several machines, into one, and writes its answer. A
 /// row is one machine's; ratios are to the baseline of the same machine.

@@ -3,9 +3,24 @@
 use manylights_metrics::{METRICS, RadianceImage, compare_display, compare_linear};
 use serde_json::json;
 
-use crate::cli::MetricsArguments;
 use crate::error::Failure;
 use crate::output::print_json;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct MetricsArguments {
+    /// Picture to judge
+    pub(crate) image: PathBuf,
+    /// What it should be
+    pub(crate) reference: PathBuf,
+    /// Exposure of the display-referred errors
+    #[arg(long, default_value_t = 1.0, value_name = "FACTOR")]
+    pub(crate) exposure: f32,
+    /// As JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// Prints the errors of one picture against another.
 ///

@@ -4,6 +4,7 @@ pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod export;
 pub(crate) mod list;
+mod machine;
 pub(crate) mod merge;
 pub(crate) mod metrics;
 pub(crate) mod plan;

@@ -2,11 +2,29 @@
 
 use serde_json::json;
 
-use crate::cli::PlanArguments;
 use crate::commands::run;
 use crate::error::Failure;
 use crate::output::print_json;
-use crate::{experiment, jobs};
+use crate::question::experiment;
+use crate::question::experiment::Profile;
+use crate::question::jobs;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct PlanArguments {
+    /// Experiment file
+    pub(crate) experiment: PathBuf,
+    /// How large
+    #[arg(long, value_enum, default_value = "standard")]
+    pub(crate) profile: Profile,
+    /// Folder of the scene files' glTF assets
+    #[arg(long, value_name = "DIR", env = "MANYLIGHTS_ASSETS")]
+    pub(crate) assets: Option<PathBuf>,
+    /// As JSON on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// Lists the jobs of an experiment, for `run --cell` on other machines.
 ///

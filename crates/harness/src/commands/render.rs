@@ -2,16 +2,52 @@
 
 use std::path::Path;
 
-use manylights_method::Visibility;
-
-use crate::cli::RenderArguments;
+use crate::commands::machine::Machine;
 use crate::error::Failure;
-use crate::experiment::has_last_segment;
-use crate::measure::{self, Measured};
+use crate::measurement::measure::{self, Measured};
+use crate::measurement::provenance::Provenance;
+use crate::measurement::stage::{self, Stage};
+use crate::output;
 use crate::progress::Progress;
-use crate::provenance::Provenance;
-use crate::stage::{self, Stage};
-use crate::{output, registry, settings};
+use crate::question::experiment::has_last_segment;
+use crate::question::settings;
+use crate::registry;
+use clap::Args;
+use manylights_scene::{Transport, Visibility};
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct RenderArguments {
+    /// Built-in scene, scenes/NAME.toml, or a .toml, .glb or .gltf file
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) scene: String,
+    /// Method (see `list methods`)
+    #[arg(long, value_name = "ID")]
+    pub(crate) method: String,
+    /// Sets a parameter of the method
+    #[arg(long, value_name = "KEY=VALUE", value_parser = settings::split)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Light paths: direct, indirect-1 (or another number of bounces), all
+    #[arg(long, default_value = "indirect-1", value_name = "PATHS")]
+    pub(crate) transport: Transport,
+    /// Of the last segment of indirect-1: traced, ignored [default: what the method computes]
+    #[arg(long, value_name = "VISIBILITY")]
+    pub(crate) visibility: Option<Visibility>,
+    /// Size of the picture
+    #[arg(long, default_value = "512x512", value_name = "WxH", value_parser = settings::resolution)]
+    pub(crate) resolution: [u32; 2],
+    /// Camera of the scene [default: its first]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) camera: Option<String>,
+    /// Same seed, same picture
+    #[arg(long, default_value_t = 1, value_name = "N", allow_negative_numbers = true)]
+    pub(crate) seed: u64,
+    /// Radiance; a PNG at the scene's exposure is written beside it
+    #[arg(short, long, value_name = "OUT.exr")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) machine: Machine,
+}
 
 /// Renders one picture to an EXR and a PNG.
 ///

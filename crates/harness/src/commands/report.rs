@@ -1,9 +1,17 @@
 //! `manylights report`.
 
-use crate::answer_files;
-use crate::cli::ReportArguments;
 use crate::error::Failure;
-use crate::report::{self, Loaded};
+use crate::show::answer_files;
+use crate::show::report::{self, Loaded};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct ReportArguments {
+    /// Folder of the results, with the experiment file that `run` put there
+    #[arg(value_name = "DIR")]
+    pub(crate) directory: PathBuf,
+}
 
 /// Writes the answer of a folder again, from its cells and pictures alone: tables, curves, sheets and
 /// the page.

@@ -5,15 +5,41 @@ use std::path::Path;
 
 use manylights_scene::Scene;
 
-use crate::answer::{RowResult, SceneAnswer};
-use crate::cell::Outcome;
-use crate::cli::RunArguments;
+use crate::answer::rows::{RowResult, SceneAnswer};
+use crate::commands::machine::Machine;
 use crate::error::Failure;
-use crate::experiment::{self, Experiment};
-use crate::jobs;
-use crate::report;
-use crate::session::Session;
-use crate::{answer_files, layers, output, stage};
+use crate::measurement::cell::Outcome;
+use crate::measurement::session::Session;
+use crate::measurement::stage;
+use crate::output;
+use crate::question::experiment::Profile;
+use crate::question::experiment::{self, Experiment};
+use crate::question::jobs;
+use crate::show::answer_files;
+use crate::show::layers;
+use crate::show::report;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct RunArguments {
+    /// Experiment file
+    pub(crate) experiment: PathBuf,
+    /// How large
+    #[arg(long, value_enum, default_value = "standard")]
+    pub(crate) profile: Profile,
+    /// Folder of the results [default: that of the experiment file]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Runs the cells of one line of `plan` alone
+    #[arg(long, value_name = "KEY")]
+    pub(crate) cell: Option<String>,
+    /// Folder of references [default: manylights/references in the user's cache folder]
+    #[arg(long, value_name = "DIR", env = "MANYLIGHTS_CACHE")]
+    pub(crate) cache: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) machine: Machine,
+}
 
 /// Runs an experiment, or what is left of it, and writes the answer.
 ///

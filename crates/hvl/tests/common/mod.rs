@@ -4,14 +4,16 @@
 use std::sync::LazyLock;
 
 use glam::{DVec3, Quat, Vec3};
-use manylights_gpu::{Gpu, GpuFrame, RadiusRule, SurfaceRecord, VirtualLight};
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
 use manylights_hvl::{
-    Damping, Form, Horizon, Hvl, Settings, SphericalLight, gather, oracle, rounded,
-    spherical_lights,
+    Horizon, Hvl, Settings, VirtualSphere, gather, oracle, rounded, virtual_spheres,
 };
-use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_method::{Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
+use manylights_reflectance::{Damping, Form};
 use manylights_scene::{Brdf, Lobe};
+use manylights_scene::{Transport, Visibility};
+use manylights_virtual_lights::{RadiusRule, VirtualLight, VirtualLights};
 
 pub(crate) static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
@@ -33,7 +35,7 @@ pub(crate) struct Picture {
     pub(crate) image: RadianceImage,
     pub(crate) surfaces: Vec<SurfaceRecord>,
     pub(crate) eye: DVec3,
-    pub(crate) lights: Vec<SphericalLight>,
+    pub(crate) lights: Vec<VirtualSphere>,
 }
 
 impl Picture {
@@ -63,12 +65,13 @@ pub(crate) fn render(
         seed: 0,
         gpu: Some(&on_gpu),
     };
-    let parameters = Parameters::new(Hvl.parameters(), texts.iter().copied()).expect("in range");
-    let mut run = Hvl.prepare(&frame, &parameters).expect("hvl renders the scene");
+    let parameters =
+        Parameters::new(VirtualLights(Hvl).parameters(), texts.iter().copied()).expect("in range");
+    let mut run = VirtualLights(Hvl).prepare(&frame, &parameters).expect("hvl renders the scene");
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
     let surfaces = GPU.read(on_gpu.surfaces()).expect("read-back");
-    let (lights, _) = spherical_lights(&on_gpu, &scene, settings, 0).expect("lights");
+    let (lights, _) = virtual_spheres(&on_gpu, &scene, settings, 0).expect("lights");
     Picture { image, surfaces, eye: camera.position.as_dvec3(), lights }
 }
 
@@ -95,11 +98,11 @@ pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord
     SurfaceRecord::new(position, normal, brdf)
 }
 
-pub(crate) fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> SphericalLight {
+pub(crate) fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> VirtualSphere {
     let incoming = (normal + 0.5 * normal.any_orthonormal_vector()).normalize();
     let flux = Vec3::ONE;
     let light = VirtualLight { position, geometric_normal: normal, normal, incoming, flux, brdf };
-    rounded(&SphericalLight { light, radius })
+    rounded(&VirtualSphere { light, radius })
 }
 
 /// An oblique frame, so that no coordinate is exact.
@@ -127,7 +130,7 @@ fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
 }
 
 /// Largest difference to the oracle over all receivers, relative to the largest true radiance.
-pub(crate) fn worst(receiver: Brdf, sphere: &SphericalLight, settings: &Settings) -> f64 {
+pub(crate) fn worst(receiver: Brdf, sphere: &VirtualSphere, settings: &Settings) -> f64 {
     let camera = oblique(Vec3::new(0.3, 7.0, 0.2));
     let surfaces = receivers(receiver, camera);
     let pixels = gather(&GPU, &surfaces, camera, &[*sphere], settings).expect("a gather");

@@ -11,7 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use gltf_crate::json::{Buffer, Root};
 use percent_encoding::percent_decode_str;
 
-use super::broken;
+use super::fault::broken;
 use crate::LoadError;
 
 /// The data of all buffers, each cut to its stated length.

@@ -8,7 +8,7 @@ use gltf_crate::json::Root;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::broken;
+use super::fault::broken;
 use crate::LoadError;
 
 /// Extensions that a file may require. (`KHR_materials_specular` and its like also work undeclared.)

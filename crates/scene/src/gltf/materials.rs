@@ -6,9 +6,10 @@ use ::gltf as gltf_crate;
 use glam::Vec3;
 use gltf_crate::material::AlphaMode;
 
+use super::fault::broken;
 use super::notes::Notes;
+use super::source::Source;
 use super::textures::{self, Textures};
-use super::{Source, broken};
 use crate::{LoadError, Material, Scene};
 
 /// Materials of the file that are in the scene already.

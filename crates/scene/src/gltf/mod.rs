@@ -7,12 +7,15 @@
 
 mod buffers;
 mod container;
+mod fault;
+mod import;
 mod materials;
 mod nodes;
 mod notes;
 mod optics;
 mod primitives;
 mod ranges;
+mod source;
 mod textures;
 mod validate;
 
@@ -22,31 +25,11 @@ use ::gltf as gltf_crate;
 use gltf_crate::Document;
 
 use self::buffers::Buffers;
+use self::import::Import;
 use self::materials::Materials;
 use self::notes::Notes;
+use self::source::Source;
 use crate::{LoadError, Scene};
-
-/// What is found wrong at `place` (a path into the JSON) in a file that nothing here can mend.
-fn broken(place: impl std::fmt::Display, problem: impl std::fmt::Display) -> LoadError {
-    LoadError::new(place, problem, "repair the file or export it again")
-}
-
-/// A checked file and the bytes behind it.
-#[derive(Clone, Copy)]
-struct Source<'a> {
-    document: &'a Document,
-    buffers: &'a Buffers<'a>,
-    /// Where its URIs start.
-    folder: &'a Path,
-}
-
-/// A scene in the making.
-struct Import<'a> {
-    source: Source<'a>,
-    materials: Materials,
-    notes: Notes,
-    scene: Scene,
-}
 
 /// Loads a glTF file: its default scene, in world space.
 ///

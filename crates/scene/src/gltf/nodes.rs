@@ -6,8 +6,10 @@ use gltf_crate::json::mesh::{Primitive, Semantic};
 use gltf_crate::json::validation::Checked;
 use gltf_crate::json::{Accessor, Index, Root, scene};
 
+use super::fault::broken;
+use super::import::Import;
 use super::notes::Notes;
-use super::{Import, broken, optics, primitives};
+use super::{optics, primitives};
 use crate::LoadError;
 
 /// Most vertices and indices that are drawn: some 4 GiB of them.

@@ -7,7 +7,8 @@ use glam::{Mat4, Vec3};
 use gltf_crate::camera::Projection;
 use gltf_crate::khr_lights_punctual::Kind;
 
-use super::{Import, broken};
+use super::fault::broken;
+use super::import::Import;
 use crate::{Camera, Light, LoadError};
 
 /// Widest half-angle of a spot light: at a right angle its map of texels would be infinite.

@@ -5,7 +5,8 @@ use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf_crate::mesh::Mode;
 use gltf_crate::{Primitive, Semantic};
 
-use super::{Import, broken};
+use super::fault::broken;
+use super::import::Import;
 use crate::{LoadError, Scene, Triangle, Vertex};
 
 /// Appends a primitive to the scene.

@@ -8,8 +8,8 @@ use gltf_crate::json::accessor::sparse::Sparse;
 use gltf_crate::json::validation::{Checked, USize64};
 use gltf_crate::json::{Accessor, Index, Root, buffer};
 
-use super::broken;
 use super::buffers::Buffers;
+use super::fault::broken;
 use crate::LoadError;
 
 /// Checks every buffer view and accessor. References have been checked before.

@@ -10,8 +10,9 @@ use image::error::{ImageError, LimitErrorKind};
 use image::{ImageReader, Limits};
 
 use super::buffers;
+use super::fault::broken;
 use super::notes::Notes;
-use super::{Source, broken};
+use super::source::Source;
 use crate::{LoadError, Scene, Texture};
 
 /// Largest width and height, and most bytes that decoding may take: refused before any allocation.

@@ -6,8 +6,8 @@ use gltf_crate::json::mesh::{Primitive, Semantic};
 use gltf_crate::json::validation::{Checked, Error, Validate};
 use gltf_crate::json::{Accessor, Index, Path, Root, camera};
 
-use super::broken;
 use super::container::UNDERSTOOD;
+use super::fault::broken;
 use super::notes::Notes;
 use crate::LoadError;
 

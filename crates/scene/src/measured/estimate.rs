@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec3, Vec3};
 
-use super::Values;
+use super::values::Values;
 
 /// Sampling follows either lobe at least this often.
 const MIN_SHARE: f64 = 0.1;
@@ -15,10 +15,10 @@ const STEPS: usize = 64;
 
 /// The lobes.
 #[derive(Clone, Copy)]
-pub(super) struct Estimate {
-    pub(super) diffuse: Vec3,
-    pub(super) f0: Vec3,
-    pub(super) alpha: f32,
+pub(crate) struct Estimate {
+    pub(crate) diffuse: Vec3,
+    pub(crate) f0: Vec3,
+    pub(crate) alpha: f32,
 }
 
 impl Estimate {

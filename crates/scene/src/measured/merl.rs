@@ -6,8 +6,12 @@
 //! count 0. Deviation from the database's own code, which takes the nearest value: linear interpolation
 //! between the middles of cells.
 
-use super::{MERL, Real, broken};
+use super::fault::broken;
+use super::real::Real;
 use crate::LoadError;
+
+/// The first word of such a table on the adapter.
+const MERL: u32 = 1;
 
 const SIZE: [usize; 3] = [90, 90, 180];
 const POINTS: usize = SIZE[0] * SIZE[1] * SIZE[2];

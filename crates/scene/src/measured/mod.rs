@@ -6,24 +6,23 @@
 //! dropping a scene frees none.
 
 mod estimate;
+mod fault;
 mod merl;
 mod real;
 mod rgl;
 mod tensor;
+mod values;
 
 use std::fmt::{Debug, Formatter};
 use std::path::Path;
 use std::sync::{PoisonError, RwLock};
 
-use self::estimate::Estimate;
+pub(crate) use self::estimate::Estimate;
 use self::merl::Merl;
 use self::real::Real;
 use self::rgl::Rgl;
-use crate::{Brdf, LoadError, Lobe};
-
-/// The first word of a table on the adapter: its kind.
-const RGL: u32 = 0;
-const MERL: u32 = 1;
+use self::values::Values;
+use crate::LoadError;
 
 /// Longest file that is read: a MERL material has 35 MB.
 const MAX_FILE: u64 = 1 << 26;
@@ -39,17 +38,6 @@ struct Table {
     number: u32,
     values: Values,
     estimate: Estimate,
-}
-
-#[derive(PartialEq)]
-enum Values {
-    Rgl(Rgl),
-    Merl(Merl),
-}
-
-/// What is found wrong at `place` in a file that nothing here can mend.
-fn broken(place: impl std::fmt::Display, problem: impl std::fmt::Display) -> LoadError {
-    LoadError::new(place, problem, "download the file again")
 }
 
 impl Measured {
@@ -116,33 +104,15 @@ impl Measured {
         self.0.values.words()
     }
 
-    /// The reflectance. `alpha`, `f0` and `diffuse` are those of a GGX and a Lambertian lobe that
-    /// share out its albedo: what samplers follow; [`Brdf::eval`] reads the table.
-    pub fn brdf(self) -> Brdf {
-        let Estimate { diffuse, f0, alpha } = self.0.estimate;
-        Brdf { diffuse, f0, alpha, lobe: Lobe::Measured(self) }
+    /// Lobes that share out its albedo.
+    pub(crate) fn estimate(self) -> Estimate {
+        self.0.estimate
     }
 
     /// f(v, l) n·l in sr⁻¹ for unit directions above the horizon, in a frame with the normal as z and
     /// v in the x-z plane, x ≥ 0. Measurements are not quite reciprocal: v is the viewer's side.
     pub(crate) fn eval<T: Real>(self, v: [T; 3], l: [T; 3]) -> [T; 3] {
         self.0.values.eval(v, l)
-    }
-}
-
-impl Values {
-    fn eval<T: Real>(&self, v: [T; 3], l: [T; 3]) -> [T; 3] {
-        match self {
-            Self::Rgl(rgl) => rgl.eval(v, l),
-            Self::Merl(merl) => merl.eval(v, l).map(|value| value * l[2]),
-        }
-    }
-
-    fn words(&self) -> Vec<u32> {
-        match self {
-            Self::Rgl(rgl) => rgl.words(),
-            Self::Merl(merl) => merl.words(),
-        }
     }
 }
 

@@ -9,9 +9,13 @@
 //! φ/(2π) + 1/2. S and the density are tabulated for some θ_v and interpolated linearly between them.
 //! Measured colours may be negative; they are clamped at 0 before interpolation.
 
+use super::fault::broken;
+use super::real::Real;
 use super::tensor::TensorFile;
-use super::{RGL, Real, broken};
 use crate::LoadError;
+
+/// The first word of such a table on the adapter.
+const RGL: u32 = 0;
 
 /// Tables of one material. Grids are row-major, columns first in their sizes.
 #[derive(PartialEq)]

@@ -4,7 +4,7 @@
 //! then the data, all little-endian. Files come from anywhere: every length is checked against the
 //! bytes that are there before it is used.
 
-use super::broken;
+use super::fault::broken;
 use crate::LoadError;
 
 const MAGIC: &[u8] = b"tensor_file\0";

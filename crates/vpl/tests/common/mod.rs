@@ -3,10 +3,12 @@
 use std::sync::LazyLock;
 
 use glam::DVec3;
-use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord, distribute};
-use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
+use manylights_method::{Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
 use manylights_scene::Scene;
+use manylights_scene::{Transport, Visibility};
+use manylights_virtual_lights::{VirtualLights, distribute};
 use manylights_vpl::{Settings, Vpl, oracle};
 
 pub(crate) struct Picture {
@@ -52,10 +54,12 @@ pub(crate) fn render_scene(
         ("clamp", settings.clamp.unwrap_or(0.0).to_string()),
         ("radius", settings.radius.unwrap_or(0.0).to_string()),
     ];
-    let parameters =
-        Parameters::new(Vpl.parameters(), texts.iter().map(|(key, value)| (*key, &**value)))
-            .expect("in range");
-    let mut run = Vpl.prepare(&frame, &parameters).expect("vpl renders the scene");
+    let parameters = Parameters::new(
+        VirtualLights(Vpl).parameters(),
+        texts.iter().map(|(key, value)| (*key, &**value)),
+    )
+    .expect("in range");
+    let mut run = VirtualLights(Vpl).prepare(&frame, &parameters).expect("vpl renders the scene");
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
 

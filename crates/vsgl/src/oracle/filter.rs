@@ -1,8 +1,9 @@
 //! From the texels of a group to its two lobes.
 
 use glam::{DVec2, DVec3};
-use manylights_gpu::{LitTexel, SurfaceRecord};
+use manylights_gpu::SurfaceRecord;
 use manylights_scene::{DBrdf, Lobe as Specular};
+use manylights_virtual_lights::LitTexel;
 
 use super::gaussian::{blur, sharpness};
 use super::reflection::dominant_normal;

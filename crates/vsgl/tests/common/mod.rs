@@ -5,12 +5,14 @@ use std::sync::LazyLock;
 
 use bytemuck::Zeroable;
 use glam::{DMat3, DVec3, Vec3};
-use manylights_gpu::{Gpu, GpuFrame, LitTexel, SurfaceRecord};
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
 use manylights_harmonics::quadrature::sphere_nodes;
-use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_method::{Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
 use manylights_scene::presets::PRESETS;
 use manylights_scene::{Brdf, Scene};
+use manylights_scene::{Transport, Visibility};
+use manylights_virtual_lights::{LitTexel, VirtualLights};
 use manylights_vsgl::{GaussianLight, Lobe, Settings, SpecularLobe, Vsgl, gaussian_lights, oracle};
 
 pub(crate) static GPU: LazyLock<Gpu> =
@@ -66,7 +68,8 @@ pub(crate) fn render_scene(
         seed,
         gpu: Some(&on_gpu),
     };
-    let mut run = Vsgl.prepare(&frame, &parameters(settings)).expect("vsgl renders the scene");
+    let mut run =
+        VirtualLights(Vsgl).prepare(&frame, &parameters(settings)).expect("vsgl renders the scene");
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
     let passes: Vec<_> = run.pass_times().iter().map(|time| time.pass).collect();
@@ -90,8 +93,11 @@ fn parameters(settings: &Settings) -> Parameters {
         ("texels", settings.texels.to_string()),
         ("lobe", lobe.to_owned()),
     ];
-    Parameters::new(Vsgl.parameters(), texts.iter().map(|(key, value)| (*key, &**value)))
-        .expect("in range")
+    Parameters::new(
+        VirtualLights(Vsgl).parameters(),
+        texts.iter().map(|(key, value)| (*key, &**value)),
+    )
+    .expect("in range")
 }
 
 pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {

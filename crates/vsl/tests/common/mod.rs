@@ -4,11 +4,13 @@
 use std::sync::LazyLock;
 
 use glam::{DVec3, Vec3};
-use manylights_gpu::{Gpu, GpuFrame, RadiusRule, SurfaceRecord, VirtualLight};
-use manylights_method::{Frame, Method, Parameters, Transport, Visibility};
+use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
+use manylights_method::{Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Brdf, Lobe};
-use manylights_vsl::{Sampling, Settings, SphericalLight, Vsl, oracle, spherical_lights};
+use manylights_scene::{Transport, Visibility};
+use manylights_virtual_lights::{RadiusRule, VirtualLight, VirtualLights};
+use manylights_vsl::{Sampling, Settings, VirtualSphere, Vsl, oracle, virtual_spheres};
 
 pub(crate) static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
@@ -25,7 +27,7 @@ pub(crate) struct Picture {
     pub(crate) image: RadianceImage,
     pub(crate) surfaces: Vec<SurfaceRecord>,
     pub(crate) eye: DVec3,
-    pub(crate) lights: Vec<SphericalLight>,
+    pub(crate) lights: Vec<VirtualSphere>,
     pub(crate) oracle: Vec<DVec3>,
 }
 
@@ -42,14 +44,14 @@ pub(crate) fn render(scene: &str, resolution: [u32; 2], settings: &Settings, see
         gpu: Some(&on_gpu),
     };
     let parameters = parameters(settings);
-    let mut run = Vsl.prepare(&frame, &parameters).expect("vsl renders the scene");
+    let mut run = VirtualLights(Vsl).prepare(&frame, &parameters).expect("vsl renders the scene");
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
     let passes: Vec<_> = run.pass_times().iter().map(|time| time.pass).collect();
     assert_eq!(passes, ["distribute", "radius", "gather"]);
 
     let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("read-back");
-    let (lights, _) = spherical_lights(&on_gpu, &scene, settings, seed).expect("lights");
+    let (lights, _) = virtual_spheres(&on_gpu, &scene, settings, seed).expect("lights");
     let eye = camera.position.as_dvec3();
     let truth = |(pixel, surface)| oracle::radiance(pixel, surface, eye, &lights, settings, seed);
     let oracle = surfaces.iter().enumerate().map(truth).collect();
@@ -75,17 +77,20 @@ fn parameters(settings: &Settings) -> Parameters {
         ("radius", radius.to_owned()),
         ("scale", settings.scale.to_string()),
     ];
-    Parameters::new(Vsl.parameters(), texts.iter().map(|(key, value)| (*key, &**value)))
-        .expect("in range")
+    Parameters::new(
+        VirtualLights(Vsl).parameters(),
+        texts.iter().map(|(key, value)| (*key, &**value)),
+    )
+    .expect("in range")
 }
 
-pub(crate) fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> SphericalLight {
+pub(crate) fn light(position: Vec3, normal: Vec3, brdf: Brdf, radius: f32) -> VirtualSphere {
     let incoming = (normal + 0.5 * normal.any_orthonormal_vector()).normalize();
     let (geometric_normal, flux) = (normal, Vec3::ONE);
     // Tells the two normals apart.
     let normal = (normal + 0.2 * normal.any_orthonormal_vector()).normalize();
     let light = VirtualLight { position, geometric_normal, normal, incoming, flux, brdf };
-    SphericalLight { light, radius }
+    VirtualSphere { light, radius }
 }
 
 pub(crate) fn glossy(roughness: f32) -> Brdf {

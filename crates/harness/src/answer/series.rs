@@ -1,0 +1,172 @@
+//! Curves: the variants of an experiment that differ in one parameter alone, and what was measured
+//! along them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use plotters::style::RGBColor;
+
+use crate::answer::rows::{Medians, Row, SceneAnswer};
+use crate::measurement::cell::Checkpoint;
+use crate::question::experiment::Experiment;
+use crate::show::style::{Marker, method_style};
+
+/// A curve.
+pub(crate) struct Series {
+    /// For legends: method and the parameters that all its variants share.
+    pub(crate) name: String,
+    /// Id of the method.
+    method: &'static str,
+    /// Which of the curves of its method.
+    pub(crate) nth: usize,
+    /// Which machine's; a curve never joins the times of two.
+    machine: String,
+    /// Indices into the experiment's variants.
+    variants: Vec<usize>,
+    /// Whether its points differ in the amount of work, so that checkpoints lie on it.
+    along_cost: bool,
+}
+
+/// A measurement on a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point {
+    /// Value of the method's cost parameter.
+    pub(crate) amount: u64,
+    /// Median time of the work, with its quartiles.
+    pub(crate) seconds: [f64; 3],
+    /// Median RMSE of sRGB values over the seeds, with the least and the largest.
+    pub(crate) rmse: [f64; 3],
+}
+
+/// The curves of an experiment, in the order of its variants, for each machine that ran cells.
+pub(crate) fn of_experiment(experiment: &Experiment, scenes: &[SceneAnswer]) -> Vec<Series> {
+    let rows = || scenes.iter().flat_map(|scene| &scene.rows);
+    let machines: BTreeSet<&str> = rows().map(|row| row.machine.as_str()).collect();
+    let mut list: Vec<Series> = Vec::new();
+    let mut curves_of = BTreeMap::new();
+    for &machine in &machines {
+        for (index, variant) in experiment.variants.iter().enumerate() {
+            if !rows().any(|row| row.variant == index && row.machine == machine) {
+                continue;
+            }
+            let several = if machines.len() > 1 { format!(" @{machine}") } else { String::new() };
+            let name = variant.series() + &several;
+            if let Some(series) = list.iter_mut().find(|series| series.name == name) {
+                series.variants.push(index);
+                continue;
+            }
+            let method = variant.method.id();
+            let nth = curves_of.entry(method).or_insert(0);
+            let along_cost = variant.swept == variant.method.cost_parameter();
+            let machine = machine.to_owned();
+            list.push(Series {
+                name,
+                method,
+                nth: *nth,
+                machine,
+                variants: vec![index],
+                along_cost,
+            });
+            *nth += 1;
+        }
+    }
+    list
+}
+
+impl Series {
+    /// Colour and marker, those of the method.
+    pub(crate) fn style(&self) -> (RGBColor, Marker) {
+        method_style(self.method)
+    }
+
+    /// What was measured on a scene against a reference: in the order of the amount of work where
+    /// that is what changes along the curve, else in that of the sweep.
+    pub(crate) fn points(&self, scene: &SceneAnswer, reference: &str) -> Vec<Point> {
+        let runs = self.runs(scene);
+        let mut points: Vec<Point> =
+            runs.iter().filter_map(|medians| point(medians, reference)).collect();
+        if self.along_cost {
+            let known: Vec<u64> = points.iter().map(|point| point.amount).collect();
+            let mut between = checkpoints(&runs, reference);
+            between.retain(|point| !known.contains(&point.amount));
+            points.extend(between);
+            points.sort_by_key(|point| point.amount);
+        }
+        points
+    }
+
+    /// What its variants measured on a scene, in their order.
+    fn runs<'s>(&self, scene: &'s SceneAnswer) -> Vec<&'s Medians> {
+        let run = |&variant: &usize| {
+            let same = |row: &&Row| row.variant == variant && row.machine == self.machine;
+            scene.rows.iter().find(same)?.medians()
+        };
+        self.variants.iter().filter_map(run).collect()
+    }
+}
+
+/// The way of the longest run.
+fn checkpoints(runs: &[&Medians], reference: &str) -> Vec<Point> {
+    let Some(longest) = runs.iter().max_by_key(|medians| medians.amount) else { return Vec::new() };
+    let point = |checkpoint: &Checkpoint| {
+        let rmse = *checkpoint.display_rmse.get(reference)?;
+        let seconds = [checkpoint.step_seconds; 3];
+        Some(Point { amount: checkpoint.amount, seconds, rmse: [rmse; 3] })
+    };
+    longest.checkpoints.iter().filter_map(point).collect()
+}
+
+fn point(medians: &Medians, reference: &str) -> Option<Point> {
+    let rmse = medians.errors.get(reference)?.display.rmse;
+    let seeds = medians.seed_rmse.get(reference)?;
+    let seconds = medians.seconds;
+    Some(Point {
+        amount: medians.amount,
+        seconds: [seconds.median, seconds.lower, seconds.upper],
+        rmse: [
+            rmse,
+            seeds.iter().copied().fold(rmse, f64::min),
+            seeds.iter().copied().fold(rmse, f64::max),
+        ],
+    })
+}
+
+/// When a curve reaches an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Reached {
+    /// After so many seconds, between its points on a log-log scale.
+    At(f64),
+    /// Before its first point, which took so many seconds.
+    Before(f64),
+    /// Not within its points.
+    Never,
+}
+
+/// When a curve first falls to an error.
+pub(crate) fn time_to_reach(points: &[Point], error: f64) -> Reached {
+    let Some(reached) = points.iter().position(|point| point.rmse[0] <= error) else {
+        return Reached::Never;
+    };
+    let end = points[reached];
+    let Some(start) = reached.checked_sub(1).map(|before| points[before]) else {
+        return Reached::Before(end.seconds[0]);
+    };
+    let share = (start.rmse[0] / error).ln() / (start.rmse[0] / end.rmse[0]).ln();
+    Reached::At(start.seconds[0] * (end.seconds[0] / start.seconds[0]).powf(share))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_law_is_read_off_exactly() {
+        // RMSE = t^(−1/2).
+        let at = |t: f64| Point { amount: 1, seconds: [t; 3], rmse: [t.powf(-0.5); 3] };
+        let points = [at(1.0), at(4.0), at(100.0)];
+        let Reached::At(seconds) = time_to_reach(&points, 0.2) else { panic!("reached") };
+        assert!((seconds - 25.0).abs() < 1e-9, "{seconds}");
+        assert_eq!(time_to_reach(&points, 2.0), Reached::Before(1.0));
+        assert_eq!(time_to_reach(&points, 0.05), Reached::Never);
+        assert_eq!(time_to_reach(&[], 0.05), Reached::Never);
+    }
+}

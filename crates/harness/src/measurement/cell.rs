@@ -1,0 +1,181 @@
+//! One line of `cells.jsonl`: a run of one variant on one scene, with all that it depends on.
+
+use std::collections::BTreeMap;
+
+use manylights_metrics::{Errors, RadianceImage};
+use serde::{Deserialize, Serialize};
+
+use crate::error::one_line;
+use crate::measurement::inputs::Inputs;
+use crate::measurement::provenance::{Provenance, sha256};
+
+/// A finished cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Cell {
+    /// See [`Inputs::key`].
+    pub(crate) key: String,
+    /// What was asked.
+    #[serde(flatten)]
+    pub(crate) inputs: Inputs,
+    /// What came out.
+    #[serde(flatten)]
+    pub(crate) outcome: Outcome,
+    /// Program and machine.
+    pub(crate) provenance: Provenance,
+}
+
+/// How a cell ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "outcome", rename_all = "lowercase")]
+pub(crate) enum Outcome {
+    /// With a picture.
+    Done(Box<Done>),
+    /// The scene or the transport is not the method's.
+    Declined {
+        /// In words.
+        reason: String,
+    },
+    /// The device gave up, or pixels are not finite: the comparison fails.
+    Failed {
+        /// In words.
+        reason: String,
+    },
+}
+
+impl Outcome {
+    /// Of a run that ended before it had a picture.
+    pub(crate) fn refused(error: manylights_method::Error) -> Self {
+        match error {
+            manylights_method::Error::Declined(reason) => {
+                Self::Declined { reason: one_line(&reason) }
+            }
+            manylights_method::Error::Failed(reason) => Self::Failed { reason: one_line(&reason) },
+        }
+    }
+}
+
+/// Times, counts and errors of a picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Done {
+    /// Value of the method's cost parameter: as asked for, or as found for a time budget.
+    pub(crate) amount: u64,
+    /// Visibility of the last segment that the method computes, where it is a choice.
+    pub(crate) visibility: Option<String>,
+    /// Wall clock of what does not depend on the amount of work.
+    pub(crate) prepare_seconds: f64,
+    /// Wall clock of the work. Warmed up; without read-back, metrics and files.
+    pub(crate) step_seconds: f64,
+    /// By the processor's own clock.
+    pub(crate) pass_seconds: BTreeMap<String, f64>,
+    /// What the method counted.
+    pub(crate) counters: BTreeMap<String, u64>,
+    /// Of the pixels' bits, row by row, little endian.
+    pub(crate) image_sha256: String,
+    /// By visibility of the reference.
+    pub(crate) errors: BTreeMap<String, Comparison>,
+    /// The way to the picture, at doubling amounts, where the method is progressive.
+    pub(crate) checkpoints: Vec<Checkpoint>,
+}
+
+/// A progressive run that was looked at on its way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Checkpoint {
+    /// Work done, in units of the cost parameter.
+    pub(crate) amount: u64,
+    /// Wall clock of the work so far.
+    pub(crate) step_seconds: f64,
+    /// RMSE of sRGB values by visibility of the reference.
+    pub(crate) display_rmse: BTreeMap<String, f64>,
+}
+
+/// Errors against one reference.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Comparison {
+    /// Of radiance, W·m⁻²·sr⁻¹.
+    pub(crate) linear: Errors,
+    /// Of sRGB values at the scene's exposure.
+    pub(crate) display: Errors,
+    /// Noise of the reference, as RMSE of radiance.
+    pub(crate) linear_floor: f64,
+    /// Noise of the reference, as RMSE of sRGB values.
+    pub(crate) display_floor: f64,
+}
+
+/// Hash of the bits of a picture.
+pub(crate) fn image_sha256(image: &RadianceImage) -> String {
+    let bytes: Vec<u8> =
+        image.pixels.iter().flatten().flat_map(|component| component.to_le_bytes()).collect();
+    sha256(&bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::question::plan::Budget;
+
+    fn inputs() -> Inputs {
+        Inputs {
+            scene: "s".into(),
+            scene_content: "c".into(),
+            method: "m".into(),
+            parameters: BTreeMap::from([("n".into(), 4.0)]),
+            budget: Budget::Seconds(0.1),
+            seed: 1,
+            repetition: 0,
+            transport: "all".into(),
+            asked_visibility: Some("ignored".into()),
+            resolution: [16, 16],
+            exposure: 1.5,
+            references: BTreeMap::from([("traced".into(), 16)]),
+        }
+    }
+
+    #[test]
+    fn a_cell_survives_the_journal() {
+        let errors = Errors {
+            rmse: 0.1,
+            mse: 0.01,
+            mae: 0.1,
+            psnr: f64::INFINITY,
+            ssim: 0.5,
+            rel_mse: 0.3,
+            smape: 0.2,
+            rel_p999: 0.9,
+        };
+        let comparison =
+            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
+        let checkpoint = Checkpoint {
+            amount: 16,
+            step_seconds: 0.01,
+            display_rmse: BTreeMap::from([("traced".into(), 0.1)]),
+        };
+        let done = Done {
+            amount: 32,
+            visibility: Some("traced".into()),
+            prepare_seconds: 0.25,
+            step_seconds: 0.1 + 0.2,
+            pass_seconds: BTreeMap::from([("gather".into(), 0.125)]),
+            counters: BTreeMap::from([("rays".into(), u64::MAX)]),
+            image_sha256: image_sha256(&RadianceImage::black(1, 1)),
+            errors: BTreeMap::from([("traced".into(), comparison)]),
+            checkpoints: vec![checkpoint],
+        };
+        let provenance = Provenance::here(None);
+        let key = inputs().key(&provenance);
+        let outcome = Outcome::Done(Box::new(done));
+        let cell = Cell { key, inputs: inputs(), outcome, provenance };
+        let line = serde_json::to_string(&cell).expect("plain data");
+        assert!(!line.contains('\n'));
+        assert_eq!(serde_json::from_str::<Cell>(&line).expect("own line"), cell);
+    }
+
+    #[test]
+    fn the_key_depends_on_inputs_and_program() {
+        let here = Provenance::here(None);
+        let other_seed = Inputs { seed: 2, ..inputs() };
+        let other_program = Provenance { program: "another".into(), ..here.clone() };
+        assert_eq!(inputs().key(&here), inputs().key(&here));
+        assert_ne!(inputs().key(&here), other_seed.key(&here));
+        assert_ne!(inputs().key(&here), inputs().key(&other_program));
+    }
+}

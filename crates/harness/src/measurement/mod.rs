@@ -1,0 +1,14 @@
+//! What is measured: scenes made ready, runs by the clock, cells on disk.
+
+pub(crate) mod cell;
+pub(crate) mod equal_time;
+pub(crate) mod inputs;
+pub(crate) mod journal;
+pub(crate) mod measure;
+pub(crate) mod provenance;
+pub(crate) mod reference;
+pub(crate) mod scene_cells;
+pub(crate) mod scene_run;
+pub(crate) mod session;
+pub(crate) mod stage;
+pub(crate) mod time_budget;

@@ -1,0 +1,306 @@
+//! Runs the cells of one scene: warm-up, clock, errors, journal.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use manylights_method::{Error, Processor, Run};
+use manylights_metrics::RadianceImage;
+use manylights_path_tracer as path_tracer;
+use manylights_scene::Scene;
+
+use crate::error::Failure;
+use crate::measurement::cell::{Cell, Checkpoint, Done, Outcome, image_sha256};
+use crate::measurement::inputs::Inputs;
+use crate::measurement::measure::{self, Look, Measured};
+use crate::measurement::provenance::Provenance;
+use crate::measurement::reference::SceneReference;
+use crate::measurement::scene_cells::{SceneCells, image_path};
+use crate::measurement::session::Session;
+use crate::measurement::stage::Stage;
+use crate::progress::Progress;
+use crate::question::experiment::REFERENCE_SEED;
+use crate::question::plan::{Turn, Variant, interleaved};
+
+/// One scene in the making.
+pub(crate) struct SceneRun<'s, 'a> {
+    /// What all scenes share.
+    pub(crate) session: &'s mut Session<'a>,
+    /// The scene, ready.
+    pub(crate) stage: Stage<'s>,
+    /// Hash of its content.
+    pub(crate) content: String,
+    /// What the pictures are compared with.
+    pub(crate) references: &'s [SceneReference],
+    /// Of each variant, the value of the cost parameter that its time budget was found to allow.
+    pub(crate) amounts: Vec<Option<u64>>,
+    /// The variants whose time budgets no amount could be found for, and why.
+    pub(crate) refused: BTreeMap<usize, Outcome>,
+    /// Whether any cell was not in the journal.
+    pub(crate) ran: bool,
+}
+
+impl Session<'_> {
+    /// Renders the references of a scene and those cells of some variants that are not in the
+    /// journal.
+    ///
+    /// # Errors
+    /// One line where the scene cannot be rendered or a file cannot be written. Cells that fail are
+    /// recorded as such and do not stop the others.
+    pub(crate) fn scene(
+        &mut self,
+        scene: &Scene,
+        variants: &[usize],
+    ) -> Result<SceneCells, Failure> {
+        let experiment = self.experiment;
+        let gpu = self.gpu.clone();
+        let stage = Stage::new(scene, None, experiment.scale.resolution, gpu.as_ref())?;
+        let references = self.references(scene, &stage)?;
+        for reference in &references {
+            reference.write(&scene.name, self.out)?;
+        }
+        let scale = &experiment.scale;
+        let turns = interleaved(variants, &scale.seeds, scale.repetitions);
+        let content = manylights_scene::content_hash(scene, stage.camera);
+        let amounts = vec![None; experiment.variants.len()];
+        let mut run = SceneRun {
+            session: self,
+            stage,
+            content,
+            references: &references,
+            amounts,
+            refused: BTreeMap::new(),
+            ran: false,
+        };
+        let mut cells = run.turns(&turns)?;
+        run.correct_times(&mut cells)?;
+        Ok(SceneCells { scene: scene.name.clone(), exposure: scene.exposure, references, cells })
+    }
+
+    fn references(&self, scene: &Scene, stage: &Stage<'_>) -> Result<Vec<SceneReference>, Failure> {
+        let experiment = self.experiment;
+        let render = |&visibility| {
+            let settings = path_tracer::Settings {
+                transport: measure::with_visibility(experiment.transport, visibility),
+                resolution: experiment.scale.resolution,
+                seed: REFERENCE_SEED,
+                samples: experiment.scale.reference_samples,
+            };
+            SceneReference::render(scene, stage.camera, &settings, visibility, self.cache)
+        };
+        experiment.references.iter().map(render).collect()
+    }
+}
+
+impl SceneRun<'_, '_> {
+    /// Runs what is not in the journal, in this order, and writes each cell down.
+    ///
+    /// # Errors
+    /// One line where a file cannot be written. A cell that fails is recorded as such.
+    pub(crate) fn turns(&mut self, turns: &[Turn]) -> Result<Vec<(Turn, Cell)>, Failure> {
+        let scene = self.stage.scene;
+        let mut progress = Progress::new(&scene.name);
+        let experiment = self.session.experiment;
+        let mut warm = vec![false; experiment.variants.len()];
+        let mut cells: Vec<(Turn, Cell)> = Vec::with_capacity(turns.len());
+        for (done, &turn) in turns.iter().enumerate() {
+            progress.set(done as u64, turns.len() as u64);
+            let variant = &experiment.variants[turn.variant];
+            let inputs = self.inputs(variant, turn);
+            let provenance = self.provenance(variant).clone();
+            let key = inputs.key(&provenance);
+            self.recall_amount(turn.variant, &inputs, &provenance);
+            if let Some(cell) = self.finished(&key, turn) {
+                cells.push((turn, cell));
+                continue;
+            }
+            if !std::mem::replace(&mut warm[turn.variant], true) {
+                self.warm_up(turn);
+                self.find_amount(turn);
+            }
+            self.ran = true;
+            let outcome = self.outcome(turn, &key, &cells)?;
+            let cell = Cell { key, inputs, outcome, provenance };
+            self.session.journal.append(&cell)?;
+            progress.line(&self.summary(turn, &cell));
+            cells.push((turn, cell));
+        }
+        Ok(cells)
+    }
+
+    fn inputs(&self, variant: &Variant, turn: Turn) -> Inputs {
+        let samples =
+            |reference: &SceneReference| (reference.visibility.to_string(), reference.samples);
+        Inputs {
+            references: self.references.iter().map(samples).collect(),
+            seed: turn.seed,
+            repetition: turn.repetition,
+            ..Inputs::new(self.session.experiment, self.stage.scene, &self.content, variant)
+        }
+    }
+
+    fn provenance(&self, variant: &Variant) -> &Provenance {
+        match variant.method.processor() {
+            Processor::Cpu => &self.session.on_cpu,
+            Processor::Gpu => &self.session.on_gpu,
+        }
+    }
+
+    /// A cell of the journal that need not run again: it did not fail, it did the work that its
+    /// variant does now, and its picture, if it had one, is still there.
+    fn finished(&self, key: &str, turn: Turn) -> Option<Cell> {
+        let cell = self.session.journal.get(key)?;
+        let good = match &cell.outcome {
+            Outcome::Done(done) => {
+                self.amounts[turn.variant].is_none_or(|amount| amount == done.amount)
+                    && (turn.repetition > 0 || self.image_path(key).with_extension("exr").exists())
+            }
+            Outcome::Declined { .. } => true,
+            Outcome::Failed { .. } => false,
+        };
+        good.then(|| cell.clone())
+    }
+
+    fn image_path(&self, key: &str) -> PathBuf {
+        image_path(self.session.out, &self.stage.scene.name, key)
+    }
+
+    /// Drivers compile at the first dispatch: that one is outside the clock.
+    fn warm_up(&self, turn: Turn) {
+        let variant = &self.session.experiment.variants[turn.variant];
+        if variant.method.processor() == Processor::Gpu {
+            // What fails here fails again by the clock, where it is recorded.
+            let _ = self.measure(turn, self.amounts[turn.variant], &mut |_, _, _| Ok(()));
+        }
+    }
+
+    /// One run, with the amount of work that a time budget allows where there is one.
+    pub(crate) fn measure(
+        &self,
+        turn: Turn,
+        amount: Option<u64>,
+        look: Look<'_>,
+    ) -> Result<Measured, Error> {
+        let experiment = self.session.experiment;
+        let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
+        let frame = self.stage.frame(experiment.transport, turn.seed);
+        let set = |amount| parameters.with_count(method.cost_parameter(), amount);
+        let parameters = amount.map_or_else(|| parameters.clone(), set);
+        measure::measure(*method, &frame, *visibility, &parameters, look)
+    }
+
+    /// As [`Self::measure`], looked at whenever the work has doubled, where the method is progressive.
+    fn measure_with_checkpoints(&self, turn: Turn) -> Result<(Measured, Vec<Checkpoint>), Error> {
+        let method = self.session.experiment.variants[turn.variant].method;
+        let mut checkpoints = Vec::new();
+        let mut next = 1;
+        let mut look = |progress: manylights_method::Progress, step_seconds, run: &mut dyn Run| {
+            if method.is_progressive() && progress.done >= next && !progress.finished() {
+                next = 2 * progress.done;
+                let display_rmse = self.display_rmse(&run.resolve()?)?;
+                checkpoints.push(Checkpoint { amount: progress.done, step_seconds, display_rmse });
+            }
+            Ok(())
+        };
+        let measured = self.measure(turn, self.amounts[turn.variant], &mut look)?;
+        Ok((measured, checkpoints))
+    }
+
+    fn display_rmse(&self, image: &RadianceImage) -> Result<BTreeMap<String, f64>, Error> {
+        let rmse = |reference: &SceneReference| {
+            let comparison = reference.compare(image).map_err(|e| Error::Failed(e.to_string()))?;
+            Ok((reference.visibility.to_string(), comparison.display.rmse))
+        };
+        self.references.iter().map(rmse).collect()
+    }
+
+    fn outcome(&self, turn: Turn, key: &str, earlier: &[(Turn, Cell)]) -> Result<Outcome, Failure> {
+        if let Some(refused) = self.refused.get(&turn.variant) {
+            return Ok(refused.clone());
+        }
+        let (measured, checkpoints) = match self.measure_with_checkpoints(turn) {
+            Ok(measured) => measured,
+            Err(error) => return Ok(Outcome::refused(error)),
+        };
+        if turn.repetition == 0 {
+            self.write_image(&measured, key)?;
+        }
+        Ok(match self.done(turn, measured, checkpoints) {
+            Ok(done) if differs(&done, turn, earlier) => Outcome::Failed {
+                reason: "the picture differs from that of the first repetition".into(),
+            },
+            Ok(done) => Outcome::Done(Box::new(done)),
+            Err(error) => Outcome::Failed { reason: error.to_string() },
+        })
+    }
+
+    fn write_image(&self, measured: &Measured, key: &str) -> Result<(), Failure> {
+        let path = self.image_path(key);
+        let attributes = [("manylights.cell".to_owned(), key.to_owned())];
+        measured
+            .image
+            .write_exr(&path.with_extension("exr"), &attributes)
+            .and_then(|()| {
+                measured.image.write_png(&path.with_extension("png"), self.stage.scene.exposure)
+            })
+            .map_err(Failure::input)
+    }
+
+    fn done(
+        &self,
+        turn: Turn,
+        measured: Measured,
+        checkpoints: Vec<Checkpoint>,
+    ) -> Result<Done, manylights_metrics::Error> {
+        let Variant { method, parameters, .. } = &self.session.experiment.variants[turn.variant];
+        let asked = || parameters.count(method.cost_parameter());
+        let errors = self
+            .references
+            .iter()
+            .map(|reference| {
+                Ok((reference.visibility.to_string(), reference.compare(&measured.image)?))
+            })
+            .collect::<Result<_, manylights_metrics::Error>>()?;
+        Ok(Done {
+            amount: self.amounts[turn.variant].unwrap_or_else(asked),
+            checkpoints,
+            visibility: measure::visibility(measured.transport).map(|v| v.to_string()),
+            prepare_seconds: measured.prepare_seconds,
+            step_seconds: measured.step_seconds,
+            pass_seconds: measured.pass_seconds,
+            counters: measured.counters,
+            image_sha256: image_sha256(&measured.image),
+            errors,
+        })
+    }
+
+    fn summary(&self, turn: Turn, cell: &Cell) -> String {
+        let variant = self.session.experiment.variants[turn.variant].label();
+        let what = match &cell.outcome {
+            Outcome::Done(done) => {
+                let errors: Vec<_> = done
+                    .errors
+                    .iter()
+                    .map(|(reference, e)| format!("{reference} {:.4}", e.display.rmse))
+                    .collect();
+                format!("{:.4} s, RMSE (sRGB) {}", done.step_seconds, errors.join(", "))
+            }
+            Outcome::Declined { reason } => format!("declined: {reason}"),
+            Outcome::Failed { reason } => format!("FAILED: {reason}"),
+        };
+        format!(
+            "{} {variant} seed {} run {}: {what}",
+            self.stage.scene.name,
+            turn.seed,
+            turn.repetition + 1
+        )
+    }
+}
+
+/// Whether a repetition gave other bits than the first run of the same cell.
+fn differs(done: &Done, turn: Turn, earlier: &[(Turn, Cell)]) -> bool {
+    let first = Turn { repetition: 0, ..turn };
+    earlier.iter().any(|(turn, cell)| {
+        *turn == first
+            && matches!(&cell.outcome, Outcome::Done(other) if other.image_sha256 != done.image_sha256)
+    })
+}

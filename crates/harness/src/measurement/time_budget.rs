@@ -1,0 +1,146 @@
+//! Time budgets: how much work each variant may do on a scene.
+
+use manylights_method::Error;
+
+use crate::answer::statistics::median;
+use crate::error::Failure;
+use crate::measurement::cell::{Cell, Outcome};
+use crate::measurement::equal_time::{self, distance, miss};
+use crate::measurement::inputs::Inputs;
+use crate::measurement::provenance::Provenance;
+use crate::measurement::scene_run::SceneRun;
+use crate::question::plan::{Budget, Turn};
+
+/// A median time this far from its budget, relatively, is corrected once more and marked in tables.
+pub(crate) const TOLERANCE: f64 = 0.05;
+/// Corrections of one scene at most: the machine's own noise may exceed [`TOLERANCE`].
+const CORRECTIONS: usize = 5;
+/// Runs that a time is the median of, once it is near its target.
+const RUNS: usize = 3;
+
+impl SceneRun<'_, '_> {
+    /// Takes the amount of a variant from the last finished cell that differs in seed and repetition
+    /// alone, so that a run that goes on does the same work.
+    pub(crate) fn recall_amount(
+        &mut self,
+        variant: usize,
+        inputs: &Inputs,
+        provenance: &Provenance,
+    ) {
+        if inputs.budget == Budget::Count || self.amounts[variant].is_some() {
+            return;
+        }
+        let alike = |cell: &&Cell| {
+            let Inputs { seed, repetition, .. } = cell.inputs;
+            cell.provenance == *provenance
+                && Inputs { seed, repetition, ..inputs.clone() } == cell.inputs
+        };
+        self.amounts[variant] =
+            self.session.journal.cells().rev().filter(alike).find_map(|cell| match &cell.outcome {
+                Outcome::Done(done) => Some(done.amount),
+                _ => None,
+            });
+    }
+
+    /// Searches the amount of a variant with a time budget that has none yet. Where a try or the
+    /// baseline that sets the time is declined or fails, so are the variant's cells.
+    pub(crate) fn find_amount(&mut self, turn: Turn) {
+        let variant = &self.session.experiment.variants[turn.variant];
+        if variant.budget == Budget::Count || self.amounts[turn.variant].is_some() {
+            return;
+        }
+        match self.search(turn) {
+            Ok(amount) => self.amounts[turn.variant] = Some(amount),
+            Err(error) => {
+                self.refused.insert(turn.variant, Outcome::refused(error));
+            }
+        }
+    }
+
+    fn search(&self, turn: Turn) -> Result<u64, Error> {
+        let experiment = self.session.experiment;
+        let variant = &experiment.variants[turn.variant];
+        let target = match variant.budget {
+            Budget::Count => unreachable!("a count is not searched for"),
+            Budget::Seconds(seconds) => seconds,
+            Budget::Baseline => {
+                let told = |reason| format!("the baseline, which sets the time: {reason}");
+                self.seconds(Turn { variant: experiment.baseline, ..turn }, None).map_err(
+                    |error| match error {
+                        Error::Declined(reason) => Error::Declined(told(reason)),
+                        Error::Failed(reason) => Error::Failed(told(reason)),
+                    },
+                )?
+            }
+        };
+        let start = variant.parameters.count(variant.method.cost_parameter());
+        let measured = |amount| self.time(turn, amount, target);
+        equal_time::search(target, variant.cost_range(), start, measured)
+    }
+
+    /// One run where the time is far from `target`, the median of some where it is near.
+    fn time(&self, turn: Turn, amount: u64, target: f64) -> Result<f64, Error> {
+        let first = self.measure(turn, Some(amount), &mut |_, _, _| Ok(()))?.step_seconds;
+        if distance(first, target) > 0.5 { Ok(first) } else { self.seconds(turn, Some(amount)) }
+    }
+
+    fn seconds(&self, turn: Turn, amount: Option<u64>) -> Result<f64, Error> {
+        let runs = (0..RUNS).map(|_| self.measure(turn, amount, &mut |_, _, _| Ok(())));
+        let seconds: Vec<f64> =
+            runs.map(|run| Ok(run?.step_seconds)).collect::<Result<_, Error>>()?;
+        Ok(median(seconds).expect("there are some"))
+    }
+
+    /// Runs those variants again, with another amount, whose median time missed its budget: what was
+    /// searched in one minute may not hold in the next.
+    ///
+    /// # Errors
+    /// Those of [`Self::turns`].
+    pub(crate) fn correct_times(&mut self, cells: &mut [(Turn, Cell)]) -> Result<(), Failure> {
+        // A finished run repeats nothing.
+        let corrections = if self.ran { CORRECTIONS } else { 0 };
+        for _ in 0..corrections {
+            let variants = 0..self.amounts.len();
+            let missed: Vec<_> = variants
+                .filter_map(|variant| Some((variant, self.missed(variant, cells)?)))
+                .collect();
+            if missed.is_empty() {
+                break;
+            }
+            for &(variant, amount) in &missed {
+                self.amounts[variant] = Some(amount);
+            }
+            let again = |turn: &Turn| missed.iter().any(|&(variant, _)| variant == turn.variant);
+            let turns: Vec<Turn> = cells.iter().map(|(turn, _)| *turn).filter(again).collect();
+            let mut fresh = self.turns(&turns)?.into_iter();
+            for slot in cells.iter_mut().filter(|(turn, _)| again(turn)) {
+                *slot = fresh.next().expect("one cell for each turn");
+            }
+        }
+        Ok(())
+    }
+
+    /// A better amount for a variant whose median time missed its budget, where there is one.
+    fn missed(&self, variant: usize, cells: &[(Turn, Cell)]) -> Option<u64> {
+        let target = match self.session.experiment.variants[variant].budget {
+            Budget::Count => return None,
+            Budget::Seconds(seconds) => seconds,
+            Budget::Baseline => median_seconds(self.session.experiment.baseline, cells)?,
+        };
+        let seconds = median_seconds(variant, cells)?;
+        let amount = self.amounts[variant]?;
+        let range = self.session.experiment.variants[variant].cost_range();
+        let better = (amount as f64 * target / seconds).round() as u64;
+        let better = better.clamp(*range.start(), *range.end());
+        (miss(seconds, target) > TOLERANCE && better != amount).then_some(better)
+    }
+}
+
+fn median_seconds(variant: usize, cells: &[(Turn, Cell)]) -> Option<f64> {
+    median(cells.iter().filter(|(turn, _)| turn.variant == variant).filter_map(|(_, cell)| {
+        match &cell.outcome {
+            Outcome::Done(done) => Some(done.step_seconds),
+            _ => None,
+        }
+    }))
+}

@@ -1,0 +1,398 @@
+//! Experiment files: the question that `manylights run` answers.
+//!
+//! ```toml
+//! title = "…"                        # heading of the table
+//! question = "…"
+//! scenes = ["cornell", "scenes/hall.toml"]
+//! transport = "indirect-1"
+//! references = ["traced", "ignored"] # visibility of their last segment; the truth first
+//! errors = [0.02]                    # the time to reach these RMSEs is read off the curves
+//! columns = ["counts", "time", "rmse"] # of the table; see columns.rs
+//! [[methods]]                        # any number; all combinations of the values run
+//! id = "…"
+//! parameters = { samples = [16, 64] }
+//! visibility = "traced"              # or "ignored", or a list; left out: the method's own
+//! [[methods]]
+//! id = "…"
+//! budget = "time"                    # the harness sets the method's cost parameter
+//! [baseline]                         # one of those; the first where it is left out
+//! id = "…"
+//! parameters = { samples = 16 }
+//! [profiles.quick]                   # and standard, paper
+//! resolution = [96, 96]
+//! reference_samples = 1024
+//! repetitions = 3                    # timed runs of each cell
+//! seeds = [1]
+//! times = [0.1, "baseline"]          # seconds; what methods with a time budget are given
+//! [exposures]                        # where a scene's own is not wanted
+//! cornell = 2.0
+//! [[crops]]                          # shown enlarged, the same for all methods
+//! scene = "cornell"
+//! rectangle = [0.5, 0.5, 0.25, 0.25] # left, top, width, height in parts of the picture
+//! [[published]]                      # numbers of a paper, set beside ours
+//! source = "…"
+//! scene = "cornell"
+//! method = { id = "…", parameters = { samples = 64 } }
+//! reference = "traced"
+//! values = { rmse = 0.01 }           # of sRGB values; "time_ratio" is to the baseline
+//! ```
+//!
+//! A curve runs along the first parameter, in the method's own order, that has a list of values,
+//! else along the method's cost parameter; the others tell curves apart.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use manylights_scene::{Transport, Visibility};
+use serde::Deserialize;
+
+use crate::names;
+use crate::question::columns::Column;
+use crate::question::crops::Crop;
+use crate::question::plan::{Budget, Variant};
+use crate::question::published::{self, Published};
+use crate::question::settings;
+use crate::question::sweep::Entry;
+
+/// Seed of every reference. No cell may use it: its samples would agree with the reference's.
+pub(crate) const REFERENCE_SEED: u64 = 0x7265_6665;
+
+/// Side of the window of SSIM.
+const MIN_SIDE: u32 = 11;
+
+/// A checked experiment in one profile.
+#[derive(Debug)]
+pub(crate) struct Experiment {
+    /// Heading of the table.
+    pub(crate) title: String,
+    /// What it asks, in a sentence or two.
+    pub(crate) question: String,
+    /// Names or files for `manylights_scene::load`.
+    pub(crate) scenes: Vec<String>,
+    /// The light paths of all pictures.
+    pub(crate) transport: Transport,
+    /// The references, the truth first: ranks are by it.
+    pub(crate) references: Vec<Visibility>,
+    /// Methods with their parameters, all combinations written out.
+    pub(crate) variants: Vec<Variant>,
+    /// Index into `variants`: what ratios refer to.
+    pub(crate) baseline: usize,
+    /// RMSEs (sRGB) whose times are read off the curves.
+    pub(crate) errors: Vec<f64>,
+    /// Columns of the table.
+    pub(crate) columns: Vec<Column>,
+    /// Exposures by scene, where they are not the scene's.
+    pub(crate) exposures: BTreeMap<String, f32>,
+    /// What sheets and reports show enlarged.
+    pub(crate) crops: Vec<Crop>,
+    /// Numbers of papers.
+    pub(crate) published: Vec<Published>,
+    /// Name of the profile.
+    pub(crate) profile: &'static str,
+    /// Sizes and counts of the profile.
+    pub(crate) scale: Scale,
+}
+
+/// How large an experiment is.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Scale {
+    /// Width, height in pixels.
+    pub(crate) resolution: [u32; 2],
+    /// Samples a pixel of the references.
+    pub(crate) reference_samples: u32,
+    /// Timed runs of each cell.
+    pub(crate) repetitions: u32,
+    /// One picture for each.
+    pub(crate) seeds: Vec<u64>,
+    /// Of methods with a time budget.
+    #[serde(default)]
+    times: Vec<Time>,
+}
+
+/// A time budget as written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "a time is a number of seconds or \"baseline\"")]
+enum Time {
+    Seconds(f64),
+    Of(String),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    title: String,
+    question: String,
+    scenes: Vec<String>,
+    transport: String,
+    references: Vec<String>,
+    methods: Vec<Entry>,
+    baseline: Option<Entry>,
+    #[serde(default)]
+    errors: Vec<f64>,
+    columns: Option<Vec<Column>>,
+    #[serde(default)]
+    exposures: BTreeMap<String, f32>,
+    #[serde(default)]
+    crops: Vec<Crop>,
+    #[serde(default)]
+    published: Vec<published::Entry>,
+    profiles: Profiles,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Profiles {
+    quick: Option<Scale>,
+    standard: Option<Scale>,
+    paper: Option<Scale>,
+}
+
+/// How much an experiment may cost: `[profiles.NAME]` of its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Profile {
+    /// Seconds to minutes, on any machine.
+    Quick,
+    /// The size that conclusions are drawn from.
+    Standard,
+    /// The size of the published figures.
+    Paper,
+}
+
+/// Reads and checks an experiment file.
+///
+/// # Errors
+/// One line: the file, what is wrong, how to mend it.
+pub(crate) fn read(path: &Path, profile: Profile) -> Result<Experiment, String> {
+    let at = |reason: String| format!("{}: {reason}", path.display());
+    let text = std::fs::read_to_string(path).map_err(|error| at(error.to_string()))?;
+    parse(&text, profile).map_err(at)
+}
+
+/// Title and scenes of an experiment file, for lists.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn summary(path: &Path) -> Result<(String, Vec<String>), String> {
+    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let file: File = toml::from_str(&text).map_err(|error| mend(&text, &error))?;
+    Ok((file.title, file.scenes))
+}
+
+fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
+    let file: File = toml::from_str(text).map_err(|error| mend(text, &error))?;
+    let (name, scale) = match profile {
+        Profile::Quick => ("quick", file.profiles.quick),
+        Profile::Standard => ("standard", file.profiles.standard),
+        Profile::Paper => ("paper", file.profiles.paper),
+    };
+    let scale = scale.ok_or_else(|| format!("no profile `{name}`: add [profiles.{name}]"))?;
+    check_scale(name, &scale)?;
+    if file.scenes.is_empty() || file.methods.is_empty() || file.references.is_empty() {
+        return Err("`scenes`, `methods` and `references` each need at least one entry".into());
+    }
+    let transport: Transport = file.transport.parse()?;
+    let times = times(&scale.times)?;
+    let mut variants = Vec::new();
+    for entry in &file.methods {
+        for variant in entry.variants(&times)? {
+            if variants.contains(&variant) {
+                return Err(format!("methods: `{}` is listed twice", variant.label()));
+            }
+            variants.push(variant);
+        }
+    }
+    let references = references(&file.references, transport)?;
+    if file.errors.iter().any(|error| !(error.is_finite() && *error > 0.0)) {
+        return Err("errors: RMSEs are positive numbers".into());
+    }
+    let exposed = |exposure: &f32| exposure.is_finite() && *exposure > 0.0;
+    if !file.exposures.values().all(exposed) {
+        return Err("exposures: factors are positive numbers".into());
+    }
+    file.crops.iter().try_for_each(Crop::check)?;
+    let mut published = Vec::new();
+    for entry in &file.published {
+        published.extend(entry.resolve(&variants, &times, &references)?);
+    }
+    Ok(Experiment {
+        errors: file.errors,
+        columns: file.columns.unwrap_or_else(|| Column::ALL.to_vec()),
+        exposures: file.exposures,
+        crops: file.crops,
+        published,
+        title: file.title,
+        question: file.question,
+        scenes: file.scenes,
+        transport,
+        references,
+        baseline: baseline(file.baseline.as_ref(), &variants)?,
+        variants,
+        profile: name,
+        scale,
+    })
+}
+
+fn check_scale(name: &str, scale: &Scale) -> Result<(), String> {
+    let at = |reason: &str| Err(format!("profiles.{name}: {reason}"));
+    settings::check_resolution(scale.resolution)
+        .map_err(|reason| format!("profiles.{name}: {reason}"))?;
+    if scale.resolution.iter().any(|&side| side < MIN_SIDE) {
+        return at("resolution: SSIM needs pictures of 11×11 pixels or more");
+    }
+    if scale.repetitions == 0 || scale.seeds.is_empty() {
+        return at("at least one repetition and one seed are needed");
+    }
+    if scale.reference_samples < 2 {
+        return at("`reference_samples` must be at least 2: a reference is two halves");
+    }
+    if scale.seeds.contains(&REFERENCE_SEED) {
+        return at("a seed is that of the references: choose another");
+    }
+    Ok(())
+}
+
+fn times(written: &[Time]) -> Result<Vec<Budget>, String> {
+    written
+        .iter()
+        .map(|time| match time {
+            Time::Seconds(seconds) if seconds.is_finite() && *seconds > 0.0 => {
+                Ok(Budget::Seconds(*seconds))
+            }
+            Time::Of(name) if name == "baseline" => Ok(Budget::Baseline),
+            _ => Err("times: write positive numbers of seconds or \"baseline\"".into()),
+        })
+        .collect()
+}
+
+fn references(texts: &[String], transport: Transport) -> Result<Vec<Visibility>, String> {
+    let mut references = Vec::new();
+    for text in texts {
+        let visibility = text.parse()?;
+        if visibility == Visibility::Ignored && !has_last_segment(transport) {
+            return Err(format!("references: `ignored` exists for indirect-1, not {transport}"));
+        }
+        if references.contains(&visibility) {
+            return Err(format!("references: `{text}` is listed twice"));
+        }
+        references.push(visibility);
+    }
+    Ok(references)
+}
+
+/// Whether visibility of the last segment is a choice.
+pub(crate) fn has_last_segment(transport: Transport) -> bool {
+    matches!(transport, Transport::Indirect { bounces: 1, .. })
+}
+
+fn baseline(entry: Option<&Entry>, variants: &[Variant]) -> Result<usize, String> {
+    let Some(entry) = entry else { return Ok(0) };
+    let wanted = entry.variants(&[]).map_err(|reason| format!("baseline: {reason}"))?;
+    let [wanted] = wanted.as_slice() else {
+        return Err("baseline: parameters must be single values".into());
+    };
+    variants
+        .iter()
+        .position(|variant| variant == wanted)
+        .ok_or_else(|| format!("baseline: `{}` is not among the methods", wanted.label()))
+}
+
+/// Line number and nearest key from what the TOML reader says.
+fn mend(text: &str, error: &toml::de::Error) -> String {
+    let line = error.span().map(|span| {
+        let before = text.get(..span.start).unwrap_or(text);
+        format!("line {}: ", before.matches('\n').count() + 1)
+    });
+    let message = error.message();
+    // serde words it: unknown field `a`, expected one of `b`, `c`
+    let reason = if message.starts_with("unknown field") {
+        let mut quoted = message.split('`').skip(1).step_by(2);
+        let key = quoted.next().unwrap_or_default();
+        names::unknown("key", key, quoted)
+    } else {
+        message.lines().collect::<Vec<_>>().join("; ")
+    };
+    format!("{}{reason}", line.unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"
+title = "t"
+question = "q"
+scenes = ["cornell"]
+transport = "indirect-1"
+references = ["traced", "ignored"]
+[[methods]]
+id = "reference"
+parameters = { samples = [1, 4, 16] }
+[baseline]
+id = "reference"
+parameters = { samples = 4 }
+[profiles.quick]
+resolution = [16, 16]
+reference_samples = 16
+repetitions = 2
+seeds = [1]
+"#;
+
+    fn refused(from: &str, to: &str) -> String {
+        assert!(GOOD.contains(from), "{from}");
+        parse(&GOOD.replace(from, to), Profile::Quick).expect_err(to)
+    }
+
+    #[test]
+    fn sweeps_are_written_out_and_the_baseline_is_found() {
+        let experiment = parse(GOOD, Profile::Quick).expect("good");
+        let labels: Vec<_> = experiment.variants.iter().map(Variant::label).collect();
+        assert_eq!(labels, ["reference samples=1", "reference samples=4", "reference samples=16"]);
+        assert_eq!(experiment.baseline, 1);
+        assert_eq!(experiment.references, [Visibility::Traced, Visibility::Ignored]);
+    }
+
+    #[test]
+    fn every_mistake_is_one_line_that_says_how_to_mend_it() {
+        for (from, to, said) in [
+            ("title =", "titel =", "line 2: unknown key `titel`: did you mean `title`?"),
+            ("samples = [1", "sample = [1", "did you mean `samples`?"),
+            ("id = \"reference\"", "id = \"refernce\"", "did you mean `reference`?"),
+            ("[16, 16]", "[0, 16]", "sides must be 1"),
+            ("[16, 16]", "[16, 8]", "11×11"),
+            ("[16, 16]", "[16]", "line 14"),
+            ("reference_samples = 16", "reference_samples = 1", "at least 2"),
+            ("seeds = [1]", "seeds = []", "one seed"),
+            ("repetitions = 2", "repetitions = 0", "one repetition"),
+            ("\"ignored\"", "\"forgotten\"", "use traced or ignored"),
+            ("indirect-1", "indirect-2", "exists for indirect-1"),
+            ("indirect-1", "everything", "unknown transport"),
+            ("samples = 4 ", "samples = 5 ", "not among the methods"),
+            ("samples = 4 ", "samples = [1, 4]", "single values"),
+            ("[1, 4, 16]", "[1, 1]", "listed twice"),
+            ("[1, 4, 16]", "[]", "without values"),
+            ("[1, 4, 16]", "\"many\"", "must be a number"),
+            ("scenes = [\"cornell\"]", "scenes = []", "at least one entry"),
+            ("profiles.quick", "profiles.quik", "did you mean `quick`?"),
+            ("{ samples = [1, 4, 16] }", "{}\nbudget = \"time\"", "no `times`"),
+            ("[1, 4, 16] }", "[1, 4, 16] }\nbudget = \"money\"", "unknown variant `money`"),
+            ("seeds = [1]", "seeds = [1]\ntimes = [0]", "positive numbers of seconds"),
+            ("seeds = [1]", "seeds = [1]\ntimes = [\"noon\"]", "\"baseline\""),
+            ("[baseline]", "[exposures]\ncornell = 0.0\n[baseline]", "positive"),
+            (
+                "[baseline]",
+                "[[crops]]\nscene = \"a\"\nrectangle = [0.9, 0, 0.2, 1]\n[baseline]",
+                "within",
+            ),
+            ("question", "columns = [\"psrn\"]\nquestion", "psnr"),
+            ("question", "errors = [0.0]\nquestion", "positive"),
+        ] {
+            let reason = refused(from, to);
+            assert!(reason.contains(said) && reason.lines().count() == 1, "{reason} / {said}");
+        }
+        let missing = parse(GOOD, Profile::Paper).expect_err("no paper profile");
+        assert!(missing.contains("[profiles.paper]"), "{missing}");
+        let seed = refused("seeds = [1]", &format!("seeds = [{REFERENCE_SEED}]"));
+        assert!(seed.contains("choose another"), "{seed}");
+    }
+}

@@ -1,0 +1,145 @@
+//! What an experiment runs, and in which order.
+
+use std::collections::BTreeMap;
+
+use std::ops::RangeInclusive;
+
+use manylights_method::{Method, ParameterKind, Parameters};
+use manylights_scene::Visibility;
+use serde::{Deserialize, Serialize};
+
+use crate::show::numbers::milliseconds;
+
+/// What a run may cost.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Budget {
+    /// The work that the parameters say.
+    Count,
+    /// Seconds of work. The value of the method's cost parameter is searched for.
+    Seconds(f64),
+    /// The seconds that the experiment's baseline takes on the same scene.
+    Baseline,
+}
+
+/// A method with all its parameters set.
+#[derive(Clone)]
+pub(crate) struct Variant {
+    /// From the registry.
+    pub(crate) method: &'static dyn Method,
+    /// All of its parameters. Of one with a time budget, the cost parameter is where the search
+    /// starts.
+    pub(crate) parameters: Parameters,
+    /// The parameter along which a curve runs: the first one declared that the experiment sweeps,
+    /// else the cost parameter.
+    pub(crate) swept: &'static str,
+    /// Of the last segment.
+    pub(crate) visibility: Visibility,
+    /// What it may cost.
+    pub(crate) budget: Budget,
+}
+
+impl Variant {
+    /// Method and the parameters that differ from their defaults or are swept; the budget.
+    pub(crate) fn label(&self) -> String {
+        let budget = match self.budget {
+            Budget::Count => return self.text(|_| true),
+            Budget::Seconds(seconds) => format!(" time={} ms", milliseconds(seconds)),
+            Budget::Baseline => " time=baseline".to_owned(),
+        };
+        self.text(|name| name != self.method.cost_parameter()) + &budget
+    }
+
+    /// As the label, without the swept parameter: variants that share it form one curve.
+    pub(crate) fn series(&self) -> String {
+        self.text(|name| name != self.swept && !self.is_searched(name))
+    }
+
+    /// What the cost parameter may be.
+    pub(crate) fn cost_range(&self) -> RangeInclusive<u64> {
+        let cost = self.method.cost_parameter();
+        let declared = self.method.parameters().iter().find(|info| info.name == cost);
+        match declared.map(|info| info.kind) {
+            Some(ParameterKind::Count { min, max, .. }) => min..=max,
+            _ => unreachable!("a test of the registry holds cost parameters to be counts"),
+        }
+    }
+
+    /// Whether the value of a parameter is found by the harness.
+    pub(crate) fn is_searched(&self, name: &str) -> bool {
+        self.budget != Budget::Count && name == self.method.cost_parameter()
+    }
+
+    /// Values of the parameters but for one that the harness finds: what decides a picture.
+    pub(crate) fn given(&self) -> BTreeMap<String, f64> {
+        let given = self.parameters.iter().filter(|(name, _)| !self.is_searched(name));
+        given.map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+
+    /// The visibility, where it is not the method's own.
+    pub(crate) fn unusual_visibility(&self) -> Option<Visibility> {
+        Some(self.visibility).filter(|&visibility| visibility != self.method.visibility())
+    }
+
+    fn text(&self, wanted: impl Fn(&str) -> bool) -> String {
+        let default = Parameters::new(self.method.parameters(), []).expect("nothing to refuse");
+        let mut words = vec![self.method.id().to_owned()];
+        for ((name, value), (_, usual)) in self.parameters.iter().zip(default.iter()) {
+            if wanted(name) && (value != usual || name == self.swept) {
+                words.push(format!("{name}={value}"));
+            }
+        }
+        words.extend(self.unusual_visibility().map(|chosen| format!("visibility={chosen}")));
+        words.join(" ")
+    }
+}
+
+impl PartialEq for Variant {
+    fn eq(&self, other: &Self) -> bool {
+        self.method.id() == other.method.id()
+            && self.parameters == other.parameters
+            && self.visibility == other.visibility
+            && self.budget == other.budget
+    }
+}
+
+impl std::fmt::Debug for Variant {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.label())
+    }
+}
+
+/// One timed run of a variant on a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Turn {
+    /// Index into the experiment's variants.
+    pub(crate) variant: usize,
+    /// Same seed, same picture.
+    pub(crate) seed: u64,
+    /// Which of the timed runs.
+    pub(crate) repetition: u32,
+}
+
+/// The runs of one scene. Variants take turns, so that a slow minute of the machine hits them all.
+pub(crate) fn interleaved(variants: &[usize], seeds: &[u64], repetitions: u32) -> Vec<Turn> {
+    let mut turns = Vec::new();
+    for repetition in 0..repetitions {
+        for &seed in seeds {
+            let turn = |&variant: &usize| Turn { variant, seed, repetition };
+            turns.extend(variants.iter().map(turn));
+        }
+    }
+    turns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variants_take_turns() {
+        let turns = interleaved(&[0, 1], &[7], 2);
+        let order: Vec<_> = turns.iter().map(|turn| (turn.repetition, turn.variant)).collect();
+        assert_eq!(order, [(0, 0), (0, 1), (1, 0), (1, 1)]);
+    }
+}

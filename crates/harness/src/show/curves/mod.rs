@@ -1,0 +1,128 @@
+//! `curves.svg` and `curves.png`: error against time and against the amount of work.
+
+mod axes;
+mod canvas;
+mod facet;
+mod raster;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::answer::rows::SceneAnswer;
+use crate::answer::series::{self, Series};
+use crate::error::Failure;
+use crate::question::experiment::Experiment;
+use crate::show::style::dashes;
+use canvas::{Canvas, Drawn, FLOOR, FONT, TEXT};
+use facet::{Against, Facet};
+use raster::Raster;
+
+const FACET: (u32, u32) = (460, 300);
+const HEAD: u32 = 40;
+const LEGEND_LINE: u32 = 24;
+const LEGEND_COLUMN: u32 = 300;
+/// The figure: for each scene a row, for each reference its error against time, then against the
+/// amount of work.
+pub(crate) struct Figure<'f> {
+    experiment: &'f Experiment,
+    scenes: &'f [SceneAnswer],
+    series: Vec<Series>,
+}
+
+impl<'f> Figure<'f> {
+    /// Of an answer.
+    pub(crate) fn new(experiment: &'f Experiment, scenes: &'f [SceneAnswer]) -> Self {
+        Self { experiment, scenes, series: series::of_experiment(experiment, scenes) }
+    }
+
+    /// For browsers and papers.
+    ///
+    /// # Errors
+    /// Where nothing could be drawn.
+    pub(crate) fn svg(&self) -> Result<String, Failure> {
+        let mut text = String::new();
+        let root = SVGBackend::with_string(&mut text, self.size()).into_drawing_area();
+        self.draw(&root).map_err(|error| Failure::Failed(format!("curves.svg: {error}")))?;
+        drop(root);
+        Ok(text)
+    }
+
+    /// For what shows no SVG.
+    ///
+    /// # Errors
+    /// Where nothing could be drawn.
+    pub(crate) fn png(&self) -> Result<Vec<u8>, Failure> {
+        let mut picture = Vec::new();
+        let root = Raster::new(&mut picture, self.size()).into_drawing_area();
+        self.draw(&root).map_err(|error| Failure::Failed(format!("curves.png: {error}")))?;
+        drop(root);
+        Ok(picture)
+    }
+
+    fn columns(&self) -> usize {
+        Against::ALL.len() * self.experiment.references.len()
+    }
+
+    fn per_line(&self) -> usize {
+        (self.columns() as u32 * FACET.0 / LEGEND_COLUMN) as usize
+    }
+
+    fn size(&self) -> (u32, u32) {
+        let legend = (self.series.len() + 1).div_ceil(self.per_line()) as u32 + 1;
+        let rows = self.scenes.len() as u32;
+        (FACET.0 * self.columns() as u32, HEAD + FACET.1 * rows + LEGEND_LINE * legend)
+    }
+
+    fn draw<B: DrawingBackend>(&self, root: &Canvas<B>) -> Drawn<B> {
+        let width = self.size().0;
+        root.fill(&WHITE)?;
+        let (head, rest) = root.split_vertically(HEAD);
+        let style = (FONT, 18).into_font().color(&TEXT).pos(Pos::new(HPos::Center, VPos::Center));
+        let title = self.experiment.title.clone();
+        head.draw(&Text::new(title, (width as i32 / 2, HEAD as i32 / 2), style))?;
+        let (plots, legend) = rest.split_vertically(FACET.1 * self.scenes.len() as u32);
+        let areas = plots.split_evenly((self.scenes.len(), self.columns()));
+        let facets = Facet::all(self.experiment, self.scenes, &self.series);
+        for (area, facet) in areas.iter().zip(&facets) {
+            facet.draw(area, &self.series)?;
+        }
+        self.draw_legend(&legend)?;
+        root.present()
+    }
+
+    fn draw_legend<B: DrawingBackend>(&self, area: &Canvas<B>) -> Drawn<B> {
+        let per_line = self.per_line();
+        let place = |index: usize| {
+            let x = 40 + (index % per_line) as i32 * LEGEND_COLUMN as i32;
+            (x, 14 + (index / per_line) as i32 * LEGEND_LINE as i32)
+        };
+        let text = (FONT, 13).into_font().color(&TEXT).pos(Pos::new(HPos::Left, VPos::Center));
+        for (index, curve) in self.series.iter().enumerate() {
+            let (x, y) = place(index);
+            let (color, shape) = curve.style();
+            draw_sample(area, (x, y), dashes(curve.nth), color.stroke_width(2))?;
+            area.draw(&(EmptyElement::at((x + 16, y)) + facet::marker(shape, color)))?;
+            area.draw(&Text::new(curve.name.clone(), (x + 40, y), text.clone()))?;
+        }
+        let (x, y) = place(self.series.len());
+        draw_sample(area, (x, y), Some((6, 4)), FLOOR.stroke_width(1))?;
+        area.draw(&Text::new("noise floor of the reference", (x + 40, y), text))
+    }
+}
+
+/// A short piece of a line of the legend.
+fn draw_sample<B: DrawingBackend>(
+    area: &Canvas<B>,
+    (x, y): (i32, i32),
+    dashes: Option<(u32, u32)>,
+    style: ShapeStyle,
+) -> Drawn<B> {
+    let (dash, gap) = dashes.map_or((32, 0), |(dash, gap)| (dash as i32, gap as i32));
+    let mut start = x;
+    while start < x + 32 {
+        let end = (start + dash).min(x + 32);
+        area.draw(&PathElement::new(vec![(start, y), (end, y)], style))?;
+        start += dash + gap;
+    }
+    Ok(())
+}

@@ -1,0 +1,154 @@
+//! The numbers of the page, as its scripts and other programs read them.
+
+use serde_json::{Value, json};
+
+use super::Report;
+use super::pictures::{Picture, Pictures};
+use crate::answer::rows::{Medians, RowResult, SceneAnswer};
+use crate::measurement::cell::Cell;
+use crate::measurement::provenance::Provenance;
+use crate::measurement::scene_cells::SceneCells;
+use crate::question::crops;
+use crate::question::experiment::Experiment;
+use crate::show::style::method_style;
+
+/// All numbers; `pictures` has one entry a scene. Medians of every row, then every cell.
+pub(super) fn data(report: &Report<'_>, pictures: &[Pictures<'_>], csv: String) -> Value {
+    let Report { experiment, cells, answers, machine, .. } = report;
+    let scale = &experiment.scale;
+    let scenes = cells.iter().zip(*answers).zip(pictures);
+    json!({
+        "title": experiment.title,
+        "question": experiment.question,
+        "profile": experiment.profile,
+        "transport": experiment.transport.to_string(),
+        "resolution": scale.resolution,
+        "seeds": scale.seeds,
+        "repetitions": scale.repetitions,
+        "reference_samples": scale.reference_samples,
+        "references": experiment.references.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "variants": experiment.variants.iter().map(|variant| json!({
+            "label": variant.label(),
+            "method": variant.method.id(),
+            "title": variant.method.title(),
+            "color": color(variant.method.id()),
+        })).collect::<Vec<_>>(),
+        "baseline": experiment.baseline,
+        "machine": machine,
+        "command": report.command,
+        "scenes": scenes
+            .map(|((cells, answer), pictures)| scene(experiment, cells, answer, pictures))
+            .collect::<Vec<_>>(),
+        "cells": cells.iter().flat_map(|scene| &scene.cells).map(|(_, cell)| whole(cell, machine))
+            .collect::<Vec<_>>(),
+        "csv": csv,
+    })
+}
+
+fn scene(
+    experiment: &Experiment,
+    cells: &SceneCells,
+    answer: &SceneAnswer,
+    pictures: &Pictures<'_>,
+) -> Value {
+    let names: Vec<String> = cells.references.iter().map(|r| r.visibility.to_string()).collect();
+    let crops = experiment.crops.iter().filter(|crop| crop.scene == cells.scene);
+    let crops = crops.enumerate().map(|(nth, crop)| {
+        let [r, g, b] = crops::frame(nth);
+        json!({
+            "rectangle": crop.pixels(pictures.resolution()),
+            "color": format!("#{r:02x}{g:02x}{b:02x}"),
+        })
+    });
+    let floor = |name: &String| {
+        let (linear, display) = answer.floor(name)?;
+        Some((name.clone(), json!({ "linear": linear, "display": display })))
+    };
+    json!({
+        "name": cells.scene,
+        "exposure": cells.exposure,
+        "resolution": pictures.resolution(),
+        "factor": pictures.factor,
+        "error_scale": pictures.error_scale,
+        "left_out": pictures.left_out,
+        "floors": names.iter().filter_map(floor).collect::<serde_json::Map<_, _>>(),
+        "crops": crops.collect::<Vec<_>>(),
+        "pictures": pictures.list.iter().map(picture).collect::<Vec<_>>(),
+        "rows": (0..answer.rows.len()).map(|index| row(answer, index, &names)).collect::<Vec<_>>(),
+    })
+}
+
+fn picture(picture: &Picture<'_>) -> Value {
+    match picture {
+        Picture::Reference(reference) => json!({
+            "reference": reference.visibility.to_string(),
+            "samples": reference.samples,
+        }),
+        Picture::Row(row, _) => json!({ "row": row }),
+    }
+}
+
+fn row(answer: &SceneAnswer, index: usize, names: &[String]) -> Value {
+    let row = &answer.rows[index];
+    match &row.result {
+        RowResult::Done(medians) => done(answer, index, medians, names),
+        RowResult::Declined(reason) => {
+            json!({ "variant": row.variant, "machine": row.machine, "outcome": "declined", "reason": reason })
+        }
+        RowResult::Failed(reason) => {
+            json!({ "variant": row.variant, "machine": row.machine, "outcome": "failed", "reason": reason })
+        }
+    }
+}
+
+fn done(answer: &SceneAnswer, index: usize, medians: &Medians, names: &[String]) -> Value {
+    let row = &answer.rows[index];
+    let against = |name: &String| {
+        let errors = medians.errors.get(name)?;
+        let rank = answer.ranks(name)[index];
+        let bias = medians.bias.get(name);
+        let value = json!({
+            "rank": rank.map(|rank| rank.place),
+            "rank_shared": rank.map(|rank| rank.shared),
+            "differs_from_baseline": answer.differs(row, name),
+            "linear": errors.linear,
+            "display": errors.display,
+            "bias": bias.map(|bias| bias.bias),
+            "deviation": bias.map(|bias| bias.deviation),
+            "seed_rmse": medians.seed_rmse.get(name),
+        });
+        Some((name.clone(), value))
+    };
+    let seconds = medians.seconds;
+    json!({
+        "variant": row.variant,
+        "machine": row.machine,
+        "outcome": "done",
+        "cell": medians.key,
+        "amount": medians.amount,
+        "counters": medians.counters,
+        "runs": medians.runs,
+        "seconds": seconds.median,
+        "seconds_lower": seconds.lower,
+        "seconds_upper": seconds.upper,
+        "prepare_seconds": medians.prepare_seconds,
+        "errors": names.iter().filter_map(against).collect::<serde_json::Map<_, _>>(),
+    })
+}
+
+/// A cell, without the provenance that it shares with all others of the report.
+fn whole(cell: &Cell, machine: &Provenance) -> Value {
+    let mut value = serde_json::to_value(cell).expect("a cell is plain data");
+    let on_host = Provenance { adapter: None, ..machine.clone() };
+    if let (Some(object), true) =
+        (value.as_object_mut(), cell.provenance == *machine || cell.provenance == on_host)
+    {
+        object.remove("provenance");
+    }
+    value
+}
+
+fn color(method: &str) -> String {
+    let (color, _) = method_style(method);
+    format!("#{:02x}{:02x}{:02x}", color.0, color.1, color.2)
+}

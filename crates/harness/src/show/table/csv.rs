@@ -1,0 +1,108 @@
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use manylights_metrics::METRICS;
+
+use crate::answer::rows::{Rank, Row, RowResult, SceneAnswer, values};
+use crate::question::experiment::Experiment;
+use crate::question::plan::{Budget, Variant};
+
+/// Columns before those of the metrics.
+const COLUMNS: usize = 20;
+
+/// The table for programs: one line for each scene, variant and reference.
+pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
+    let mut text = String::from(
+        "scene,method,parameters,time_budget,machine,reference,outcome,rank,rank_shared,amount,runs,seconds,\
+         seconds_lower,seconds_upper,pass_seconds,prepare_seconds,linear_floor,display_floor,display_bias,\
+         display_deviation",
+    );
+    for space in ["linear", "display"] {
+        for metric in METRICS {
+            let _ = write!(text, ",{space}_{}", metric.id);
+        }
+    }
+    text.push('\n');
+    for scene in scenes {
+        for reference in &experiment.references {
+            let reference = reference.to_string();
+            for (row, rank) in scene.rows.iter().zip(scene.ranks(&reference)) {
+                text.push_str(&csv_line(experiment, &scene.scene, row, rank, &reference));
+                text.push('\n');
+            }
+        }
+    }
+    text
+}
+
+fn csv_line(
+    experiment: &Experiment,
+    scene: &str,
+    row: &Row,
+    rank: Option<Rank>,
+    reference: &str,
+) -> String {
+    let variant = &experiment.variants[row.variant];
+    let mut fields = vec![
+        quoted(scene),
+        variant.method.id().to_owned(),
+        quoted(&parameters(variant)),
+        budget(variant.budget),
+        quoted(&row.machine),
+        reference.to_owned(),
+    ];
+    match &row.result {
+        RowResult::Done(medians) => {
+            let comparison = &medians.errors[reference];
+            let rank = rank.expect("rows with pictures are ranked");
+            fields.extend(["done".into(), rank.place.to_string(), rank.shared.to_string()]);
+            fields.extend([medians.amount.to_string(), medians.runs.to_string()]);
+            let seconds = medians.seconds;
+            let bias = medians.bias.get(reference);
+            let times = [seconds.median, seconds.lower, seconds.upper];
+            fields.extend(times.map(|number| number.to_string()));
+            fields.push(quoted(&passes(&medians.pass_seconds)));
+            let numbers =
+                [medians.prepare_seconds, comparison.linear_floor, comparison.display_floor];
+            let metrics = values(&comparison.linear).chain(values(&comparison.display));
+            fields.extend(numbers.map(|number| number.to_string()));
+            let split = [bias.map(|split| split.bias), bias.map(|split| split.deviation)];
+            fields.extend(split.map(|part| part.map_or_else(String::new, |part| part.to_string())));
+            fields.extend(metrics.map(|(_, value)| value.to_string()));
+        }
+        RowResult::Declined(reason) => fields.push(quoted(&format!("declined: {reason}"))),
+        RowResult::Failed(reason) => fields.push(quoted(&format!("failed: {reason}"))),
+    }
+    fields.resize(COLUMNS + 2 * METRICS.len(), String::new());
+    fields.join(",")
+}
+
+/// As `name=seconds`, separated by spaces of which names have none.
+fn passes(seconds: &BTreeMap<String, f64>) -> String {
+    let passes =
+        seconds.iter().map(|(name, seconds)| format!("{}={seconds}", name.replace(' ', "-")));
+    passes.collect::<Vec<_>>().join(" ")
+}
+
+/// Without the one that a time budget sets.
+fn parameters(variant: &Variant) -> String {
+    let set = variant.parameters.iter().filter(|(name, _)| !variant.is_searched(name));
+    set.map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(" ")
+}
+
+fn budget(budget: Budget) -> String {
+    match budget {
+        Budget::Count => String::new(),
+        Budget::Seconds(seconds) => seconds.to_string(),
+        Budget::Baseline => "baseline".to_owned(),
+    }
+}
+
+/// RFC 4180.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}

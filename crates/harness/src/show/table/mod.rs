@@ -1,0 +1,284 @@
+//! `table.md`, `table.tex` and `table.csv`.
+
+mod csv;
+mod latex;
+mod markdown;
+
+use crate::answer::rows::{Medians, Rank, Row, RowResult, SceneAnswer};
+use crate::answer::series::{self, Reached};
+use crate::answer::statistics::Quartiles;
+use crate::measurement::equal_time::miss;
+use crate::measurement::provenance::Provenance;
+use crate::measurement::time_budget::TOLERANCE;
+use crate::question::columns::Column;
+use crate::question::experiment::Experiment;
+use crate::question::plan::Budget;
+use crate::show::numbers::{milliseconds, short};
+
+pub(crate) use csv::csv;
+pub(crate) use latex::latex;
+pub(crate) use markdown::markdown;
+
+/// A table of plain texts.
+pub(crate) struct Table {
+    /// What it holds.
+    pub(crate) caption: String,
+    /// Title of each column and whether it holds numbers.
+    pub(crate) heading: Vec<(&'static str, bool)>,
+    /// Lines of as many cells, or fewer where the rest is empty.
+    pub(crate) lines: Vec<Vec<String>>,
+}
+
+/// What the experiment asked and what it was answered with.
+pub(crate) fn head(experiment: &Experiment, machine: &Provenance) -> [String; 2] {
+    let scale = &experiment.scale;
+    let [width, height] = scale.resolution;
+    let adapter = machine.adapter.as_ref().map_or_else(String::new, |adapter| {
+        let field = |name: &str| adapter[name].as_str().unwrap_or_default().to_owned();
+        format!("; adapter {} ({} {})", field("name"), field("driver"), field("driver_info"))
+    });
+    [
+        format!(
+            "Profile {}: {width}×{height} pixels, transport {}, {} timed runs for each of {} \
+             seed(s), references of {} samples a pixel.",
+            experiment.profile,
+            experiment.transport,
+            scale.repetitions,
+            scale.seeds.len(),
+            scale.reference_samples,
+        ),
+        format!(
+            "{}; {}, {} threads, {}{adapter}.",
+            machine.program_name(),
+            machine.cpu,
+            machine.threads,
+            machine.system,
+        ),
+    ]
+}
+
+/// The tables of a scene: one for each reference, then the times to reach an error.
+pub(crate) fn of_scene(experiment: &Experiment, scene: &SceneAnswer) -> Vec<Table> {
+    let references = experiment.references.iter().map(ToString::to_string);
+    let mut tables: Vec<Table> =
+        references.map(|reference| against(experiment, scene, &reference)).collect();
+    tables.extend(time_to_error(experiment, scene));
+    tables
+}
+
+fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &str) -> Table {
+    let columns = shown(experiment, scene);
+    let mut heading = vec![("rank", true), ("method", false)];
+    heading.extend(
+        columns
+            .iter()
+            .map(|column| (column.title(), !matches!(column, Column::Counts | Column::Passes))),
+    );
+    let ranks = scene.ranks(reference);
+    let lines = scene.rows.iter().zip(ranks).map(|(row, rank)| {
+        let several = scene.rows.iter().any(|other| other.machine != row.machine);
+        let machine = if several { format!(" @{}", row.machine) } else { String::new() };
+        let label = experiment.variants[row.variant].label() + &machine;
+        match &row.result {
+            RowResult::Done(medians) => {
+                let at = Place { experiment, scene, row, reference };
+                let mut line = vec![rank.map_or_else(String::new, place), label];
+                line.extend(columns.iter().map(|column| at.cell(*column, medians)));
+                line
+            }
+            RowResult::Declined(reason) => {
+                vec![String::new(), label, format!("declined: {reason}")]
+            }
+            RowResult::Failed(reason) => vec![String::new(), label, format!("FAILED: {reason}")],
+        }
+    });
+    let floor = scene.floor(reference).map(|(linear, display)| {
+        let mut line = vec![String::new(), "noise floor of the reference".to_owned()];
+        line.extend(columns.iter().map(|column| match column {
+            Column::Rmse => short(display),
+            Column::RmseLinear => short(linear),
+            _ => String::new(),
+        }));
+        line
+    });
+    Table {
+        caption: format!("Against the reference with visibility {reference}"),
+        heading,
+        lines: lines.chain(floor).collect(),
+    }
+}
+
+/// The columns asked for, without the split of errors where there are too few seeds for it.
+fn shown(experiment: &Experiment, scene: &SceneAnswer) -> Vec<Column> {
+    let split = scene.rows.iter().filter_map(|row| row.medians()).any(|m| !m.bias.is_empty());
+    let wanted = |column: &Column| split || !matches!(column, Column::Bias | Column::Deviation);
+    experiment.columns.iter().copied().filter(wanted).collect()
+}
+
+fn place(rank: Rank) -> String {
+    format!("{}{}", rank.place, if rank.shared { "=" } else { "" })
+}
+
+/// A row of a table.
+struct Place<'t> {
+    experiment: &'t Experiment,
+    scene: &'t SceneAnswer,
+    row: &'t Row,
+    reference: &'t str,
+}
+
+impl Place<'_> {
+    fn cell(&self, column: Column, medians: &Medians) -> String {
+        let errors = &medians.errors[self.reference];
+        let base = self.scene.baseline(self.row).and_then(Row::medians);
+        let ratio = |of: &dyn Fn(&Medians) -> f64| {
+            base.map_or_else(String::new, |base| short(of(medians) / of(base)))
+        };
+        let bias = medians.bias.get(self.reference);
+        match column {
+            Column::Counts => counts(medians),
+            Column::Time => milliseconds(medians.seconds.median) + self.overrun(medians),
+            Column::Quartiles => quartiles(medians.seconds),
+            Column::TimeRatio => ratio(&|row| row.seconds.median),
+            Column::Rmse => short(errors.display.rmse),
+            Column::RmseRatio => {
+                ratio(&|row| row.errors[self.reference].display.rmse) + self.insignificance()
+            }
+            Column::Bias => bias.map_or_else(String::new, |split| short(split.bias)),
+            Column::Deviation => bias.map_or_else(String::new, |split| short(split.deviation)),
+            Column::Psnr => format!("{:.2}", errors.display.psnr),
+            Column::Ssim => format!("{:.4}", errors.display.ssim),
+            Column::RmseLinear => short(errors.linear.rmse),
+            Column::Spikes => short(errors.linear.rel_p999),
+            Column::Passes => passes(medians),
+        }
+    }
+
+    /// Marks a time that misses its budget.
+    fn overrun(&self, medians: &Medians) -> &'static str {
+        let budget = match self.experiment.variants[self.row.variant].budget {
+            Budget::Count => return "",
+            Budget::Seconds(seconds) => Some(seconds),
+            Budget::Baseline => {
+                let baseline = self.scene.baseline(self.row).and_then(Row::medians);
+                baseline.map(|medians| medians.seconds.median)
+            }
+        };
+        let off = budget.map(|budget| miss(medians.seconds.median, budget));
+        if off.is_some_and(|off| off > TOLERANCE) { "!" } else { "" }
+    }
+
+    /// Marks a difference to the baseline that may be chance.
+    fn insignificance(&self) -> &'static str {
+        let differs = self.scene.differs(self.row, self.reference);
+        let is_baseline = self.row.variant == self.experiment.baseline;
+        if !is_baseline && differs == Some(false) { " ≈" } else { "" }
+    }
+}
+
+fn passes(medians: &Medians) -> String {
+    let passes = medians.pass_seconds.iter();
+    let passes = passes.map(|(name, &seconds)| format!("{name} {}", milliseconds(seconds)));
+    passes.collect::<Vec<_>>().join(", ")
+}
+
+fn counts(medians: &Medians) -> String {
+    let counts = medians.counters.iter().map(|(name, n)| format!("{n} {name}"));
+    counts.collect::<Vec<_>>().join(", ")
+}
+
+fn quartiles(seconds: Quartiles) -> String {
+    format!("{}–{}", milliseconds(seconds.lower), milliseconds(seconds.upper))
+}
+
+/// Milliseconds that each curve takes to each error, against each reference; `None` where the
+/// experiment names no error.
+pub(crate) fn time_to_error(experiment: &Experiment, scene: &SceneAnswer) -> Option<Table> {
+    if experiment.errors.is_empty() {
+        return None;
+    }
+    let mut lines = Vec::new();
+    for reference in experiment.references.iter().map(ToString::to_string) {
+        for curve in series::of_experiment(experiment, std::slice::from_ref(scene)) {
+            let points = curve.points(scene, &reference);
+            for &error in &experiment.errors {
+                let time = match series::time_to_reach(&points, error) {
+                    Reached::At(seconds) => milliseconds(seconds),
+                    Reached::Before(seconds) => format!("≤ {}", milliseconds(seconds)),
+                    Reached::Never => "not reached".to_owned(),
+                };
+                lines.push(vec![curve.name.clone(), reference.clone(), short(error), time]);
+            }
+        }
+    }
+    Some(Table {
+        caption: "Time to reach an error, between the points of the curves".to_owned(),
+        heading: vec![("method", false), ("reference", false), ("RMSE", true), ("time ms", true)],
+        lines,
+    })
+}
+
+/// Ours beside the numbers of papers; `None` where the experiment names none.
+pub(crate) fn published(experiment: &Experiment, scenes: &[SceneAnswer]) -> Option<Table> {
+    if experiment.published.is_empty() {
+        return None;
+    }
+    let line = |published: &crate::question::published::Published| {
+        let scene = scenes.iter().find(|scene| scene.scene == published.scene);
+        let same = |row: &&Row| row.variant == published.variant;
+        let row = scene.and_then(|scene| Some((scene, scene.rows.iter().find(same)?)));
+        let ours = row.and_then(|(scene, row)| {
+            let baseline = scene.baseline(row).and_then(Row::medians);
+            published.quantity.value(row.medians()?, baseline)
+        });
+        let [metric, reference] = published.quantity.names();
+        vec![
+            published.source.clone(),
+            published.scene.clone(),
+            experiment.variants[published.variant].label(),
+            reference,
+            metric,
+            short(published.value),
+            ours.map_or_else(|| "none".to_owned(), short),
+            ours.map_or_else(String::new, |ours| short(ours / published.value)),
+        ]
+    };
+    Some(Table {
+        caption: "Beside the published values".to_owned(),
+        heading: vec![
+            ("source", false),
+            ("scene", false),
+            ("method", false),
+            ("reference", false),
+            ("metric", false),
+            ("theirs", true),
+            ("ours", true),
+            ("÷", true),
+        ],
+        lines: experiment.published.iter().map(line).collect(),
+    })
+}
+
+/// What the numbers mean.
+pub(crate) fn foot(experiment: &Experiment) -> String {
+    let mut text = format!(
+        "Time: wall clock of the work (median and quartiles), on the adapter warmed up, without preparation, \
+         read-back, metrics and files. Base: `{}`. RMSE, PSNR and SSIM are of sRGB values at the \
+         scene's exposure, RMSE linear of radiance in W·m⁻²·sr⁻¹. Ranks are by RMSE; rows that are \
+         closer than the noise floor share a rank (=). All metrics are in `table.csv`.",
+        experiment.variants[experiment.baseline].label()
+    );
+    if experiment.scale.seeds.len() > 1 {
+        text.push_str(
+            " RMSE² = bias² + deviation² over seeds, but for the noise of the reference. ≈: the \
+             difference to the base may be chance (paired t-test over seeds, 5 %).",
+        );
+    }
+    if experiment.variants.iter().any(|variant| variant.budget != Budget::Count) {
+        text.push_str(
+            " !: the time misses its budget by more than 5 %, since the method's work comes in steps \
+             or the machine's pace changed between search and run.",
+        );
+    }
+    text
+}

@@ -1,0 +1,13 @@
+//! Radiance along light paths on the CPU.
+//!
+//! Walks from the camera and from the lights over one ray caster: what the path tracer makes its
+//! references of, and what methods that sample incoming radiance share.
+
+mod beams;
+mod emitters;
+mod lobe;
+mod sampler;
+mod tracer;
+
+pub use sampler::{SLICE, Sampler};
+pub use tracer::{Tracer, Walk};

@@ -1,0 +1,22 @@
+//! Reflectance on spherical harmonics: the cosine-weighted lobes of surfaces, tabulated over the view's
+//! angle, and the WGSL that fetches them. Knows no adapter: shaders are text.
+
+mod cache;
+mod damping;
+pub mod diffuse;
+mod expansion;
+mod half_vectors;
+mod lobe_quadrature;
+mod lobe_shape;
+pub mod lobe_wgsl;
+pub mod lobes;
+pub mod zonal;
+
+pub use cache::Cache;
+pub use expansion::{Damping, Form};
+pub use lobe_quadrature::{Fixed, LobeQuadrature};
+pub use lobe_shape::LobeShape;
+
+/// The WESL module `receiver`: a pixel's reflectance as gathers keep it. It imports the modules that
+/// [`lobe_wgsl::module`] and [`diffuse::module`] make.
+pub const RECEIVER: (&str, &str) = ("receiver", include_str!("shaders/receiver.wesl"));

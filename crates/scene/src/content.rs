@@ -1,0 +1,73 @@
+//! What a picture is made from, as a hash.
+
+use sha2::{Digest, Sha256};
+
+use crate::{Brdf, Camera, Light, Lobe, Material, Scene};
+
+/// Hash of everything in a scene and camera that a picture depends on, as 64 hexadecimal digits:
+/// triangles, materials, textures, lights, camera; not names, notes or exposure.
+pub fn content_hash(scene: &Scene, camera: &Camera) -> String {
+    content_digest(scene, camera).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// [`content_hash`] as bytes.
+pub fn content_digest(scene: &Scene, camera: &Camera) -> [u8; 32] {
+    let mut hasher = Sha256::new();
+    let mut part = |bytes: &[u8]| {
+        hasher.update((bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    };
+    part(bytemuck::cast_slice(&scene.vertices));
+    part(bytemuck::cast_slice(&scene.triangles));
+    for material in &scene.materials {
+        part(material_text(material).as_bytes());
+        if let Some(Brdf { lobe: Lobe::Measured(measured), .. }) = material.given {
+            part(bytemuck::cast_slice(&measured.words()));
+        }
+    }
+    for texture in &scene.textures {
+        part(&texture.width.to_le_bytes());
+        part(&texture.height.to_le_bytes());
+        part(bytemuck::cast_slice(&texture.texels));
+    }
+    for light in &scene.lights {
+        part(light_text(light).as_bytes());
+    }
+    part(camera_text(camera).as_bytes());
+    hasher.finalize().into()
+}
+
+// `{:?}` prints the shortest digits that read back as the same number: texts differ where numbers do.
+// The patterns name every field, so that a new one cannot be forgotten here.
+
+fn material_text(material: &Material) -> String {
+    let Material {
+        name: _,
+        base_color,
+        base_color_texture,
+        metallic,
+        roughness,
+        ior,
+        specular,
+        specular_color,
+        emission,
+        given,
+    } = material;
+    let mut text = format!(
+        "material {base_color:?} {base_color_texture:?} {metallic:?} {roughness:?} {ior:?} \
+         {specular:?} {specular_color:?} {emission:?}"
+    );
+    if let Some(brdf) = given {
+        text += &format!(" {brdf:?}");
+    }
+    text
+}
+
+fn light_text(light: &Light) -> String {
+    format!("{light:?}")
+}
+
+fn camera_text(camera: &Camera) -> String {
+    let Camera { name: _, position, right, up, forward, vertical_fov } = camera;
+    format!("camera {position:?} {right:?} {up:?} {forward:?} {vertical_fov:?}")
+}

@@ -1,0 +1,22 @@
+//! What methods with virtual lights share: reflective shadow maps, the lights placed on them, the
+//! spheres that stand for lights, lit texels, and the gather over all pixels.
+//!
+//! [`VirtualLights`] makes a [`Method`](manylights_method::Method) of an [`Estimator`].
+
+mod light_gather;
+mod lit_texels;
+mod many_lights;
+mod radius;
+mod rsm;
+mod solid_angle;
+mod virtual_light;
+mod virtual_sphere;
+
+pub use light_gather::{LightBatches, LightGather, Lights};
+pub use lit_texels::{LIT_TEXEL, LitTexel, LitTexels, lit_texels};
+pub use many_lights::{Estimator, ManyLightFrame, ManyLightRun, PlacedLights, VirtualLights};
+pub use radius::{RadiusRule, radii};
+pub use rsm::{Map, MapCell, maps, scene_maps};
+pub use solid_angle::rectangle_solid_angle;
+pub use virtual_light::{LitMap, VirtualLight, distribute, lit_maps};
+pub use virtual_sphere::{VirtualSphere, virtual_spheres};

@@ -1,0 +1,208 @@
+//! What methods that gather virtual lights have in common, but for the estimator.
+
+use glam::Vec3;
+use manylights_gpu::{GpuFrame, Shadows};
+use manylights_method::{
+    Error, Frame, Method, ParameterInfo, Parameters, PassTime, Processor, Progress, Run,
+};
+use manylights_metrics::RadianceImage;
+use manylights_scene::{Scene, Transport, Visibility};
+
+use crate::light_gather::{LightBatches, LightGather};
+
+/// What a light contributes to a pixel, for methods that gather virtual lights on the adapter. All else
+/// is alike for all of them, and [`VirtualLights`] makes them a [`Method`] of it: one indirect bounce of point-like primary lights; time
+/// and accuracy grow with the parameter [`ParameterInfo::LIGHTS`]; the thesis casts no shadow rays; and
+/// half of the lights is half of the flux, so that only the last picture estimates anything.
+pub trait Estimator: Sync {
+    /// As [`Method::id`].
+    const ID: &'static str;
+    /// As [`Method::title`].
+    const TITLE: &'static str;
+    /// As [`Method::parameters`], [`ParameterInfo::LIGHTS`] among them.
+    const PARAMETERS: &'static [ParameterInfo];
+
+    /// As [`Method::prepare`], for a frame that virtual lights can render.
+    ///
+    /// # Errors
+    /// [`Error::Declined`] with a reason where the scene is not the method's.
+    fn start<'a>(
+        frame: ManyLightFrame<'a>,
+        parameters: &Parameters,
+    ) -> Result<ManyLightRun<'a>, Error>;
+}
+
+/// The method of an estimator.
+#[derive(Clone, Copy, Debug)]
+pub struct VirtualLights<M>(pub M);
+
+impl<M: Estimator> Method for VirtualLights<M> {
+    fn id(&self) -> &'static str {
+        M::ID
+    }
+
+    fn title(&self) -> &'static str {
+        M::TITLE
+    }
+
+    fn processor(&self) -> Processor {
+        Processor::Gpu
+    }
+
+    fn parameters(&self) -> &'static [ParameterInfo] {
+        M::PARAMETERS
+    }
+
+    fn cost_parameter(&self) -> &'static str {
+        ParameterInfo::LIGHTS.name
+    }
+
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
+    fn is_progressive(&self) -> bool {
+        false
+    }
+
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        Ok(Box::new(M::start(ManyLightFrame::new(frame)?, parameters)?))
+    }
+}
+
+/// A frame that virtual lights can render.
+pub struct ManyLightFrame<'a> {
+    /// As [`Frame::scene`].
+    pub scene: &'a Scene,
+    /// Of the camera.
+    pub eye: Vec3,
+    /// As [`Frame::seed`].
+    pub seed: u64,
+    /// As [`Frame::gpu`].
+    pub on_gpu: &'a GpuFrame,
+    /// Number of pixels.
+    pub pixels: u32,
+    visibility: Visibility,
+}
+
+impl<'a> ManyLightFrame<'a> {
+    fn new(frame: &Frame<'a>) -> Result<Self, Error> {
+        let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
+        let Frame { scene, camera, transport, seed, gpu, .. } = *frame;
+        let Transport::Indirect { bounces: 1, visibility } = transport else {
+            return declined("computes one indirect bounce: use --transport indirect-1");
+        };
+        if scene.emissive_triangles().next().is_some() {
+            return declined("needs point-like primary lights; this scene has emissive triangles");
+        }
+        if scene.lights.is_empty() {
+            return declined("needs a point, spot or directional light; this scene has none");
+        }
+        let Some(on_gpu) = gpu else {
+            return Err(Error::Failed("runs on the adapter and was given none".into()));
+        };
+        let pixels = on_gpu.resolution().into_iter().product();
+        Ok(Self { scene, eye: camera.position, seed, on_gpu, pixels, visibility })
+    }
+
+    /// The shadow rays that the transport wants.
+    ///
+    /// # Errors
+    /// Where the adapter cannot hold the scene's hierarchy.
+    pub fn shadows(&self) -> Result<Option<Shadows>, Error> {
+        match self.visibility {
+            Visibility::Traced => Ok(Some(Shadows::new(self.on_gpu, self.scene)?)),
+            Visibility::Ignored => Ok(None),
+        }
+    }
+}
+
+/// The lights of a picture on the adapter, and the passes that placed them there.
+pub type PlacedLights =
+    Result<(LightBatches, Vec<manylights_gpu::PassTime>), manylights_gpu::Error>;
+
+/// A picture in the making: lights are placed in the first step, then gathered batch by batch.
+pub struct ManyLightRun<'a> {
+    frame: &'a GpuFrame,
+    gather: LightGather,
+    batches_a_step: usize,
+    place: Box<dyn Fn(&LightGather) -> PlacedLights + 'a>,
+    placed: Option<LightBatches>,
+    next: usize,
+    times: Vec<PassTime>,
+}
+
+impl<'a> ManyLightRun<'a> {
+    /// `place` makes the lights, inside the clock; `batches_a_step` of them are gathered in one
+    /// submission, at least one.
+    pub fn new(
+        frame: &'a GpuFrame,
+        gather: LightGather,
+        batches_a_step: u64,
+        place: impl Fn(&LightGather) -> PlacedLights + 'a,
+    ) -> Self {
+        let most = gather.traced_batches().unwrap_or(usize::MAX);
+        Self {
+            frame,
+            gather,
+            batches_a_step: (batches_a_step as usize).clamp(1, most),
+            place: Box::new(place),
+            placed: None,
+            next: 0,
+            times: Vec::new(),
+        }
+    }
+
+    /// Adds up the times of passes of one name.
+    fn add_times(&mut self, times: &[manylights_gpu::PassTime]) {
+        for &manylights_gpu::PassTime { pass, seconds } in times {
+            match self.times.iter_mut().find(|time| time.pass == pass) {
+                Some(time) => time.seconds += seconds,
+                None => self.times.push(PassTime { pass, seconds }),
+            }
+        }
+    }
+}
+
+impl Run for ManyLightRun<'_> {
+    fn step(&mut self) -> Result<Progress, Error> {
+        let batches = match self.placed.take() {
+            Some(batches) => batches,
+            None => {
+                let (batches, times) = (self.place)(&self.gather)?;
+                self.add_times(&times);
+                batches
+            }
+        };
+        let end = (self.next + self.batches_a_step).min(batches.count());
+        let times = self.gather.add(self.frame.surfaces(), &batches, self.next..end)?;
+        self.add_times(&times);
+        self.next = end;
+        let [done, total] = [end, batches.count()].map(|end| batches.lights(0..end));
+        self.placed = Some(batches);
+        Ok(Progress { done, total })
+    }
+
+    fn resolve(&mut self) -> Result<RadianceImage, Error> {
+        let [width, height] = self.frame.resolution();
+        let mut pixels = self.gather.radiance()?;
+        // Truncated expansions may sum to less than no light. `max` would hide what is not a number.
+        for value in pixels.as_flattened_mut().iter_mut().filter(|value| **value < 0.0) {
+            *value = 0.0;
+        }
+        Ok(RadianceImage { width, height, pixels })
+    }
+
+    fn counters(&self) -> Vec<(&'static str, u64)> {
+        let done = self.placed.as_ref().map_or(0, |batches| batches.lights(0..self.next));
+        vec![("lights", done)]
+    }
+
+    fn pass_times(&self) -> Vec<PassTime> {
+        self.times.clone()
+    }
+}
