@@ -23,6 +23,10 @@ mod scene_buffers;
 mod shadows;
 mod surface;
 
+/// Of what the shared shaders and passes of this crate compute (G-buffer, reflectance, shadow rays):
+/// raised whenever the same scene gives other numbers.
+pub const SHADERS_VERSION: u32 = 1;
+
 pub use batches::UniformBatches;
 pub use buffer::Buffer;
 pub use device::Gpu;

@@ -1,5 +1,6 @@
 //! Where results go. What cannot be written is refused before anything is rendered.
 
+use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -34,12 +35,27 @@ pub(crate) fn check_image(path: &Path) -> Result<(PathBuf, PathBuf), Failure> {
     Ok((path.to_owned(), png))
 }
 
-/// Prints JSON on standard output. A reader that has read enough is no error.
+/// Says a line to people, on standard error. Nothing depends on whether anybody reads it: a closed pipe
+/// must not end a run half-way, as it does with `eprintln!`.
+pub(crate) fn say(line: impl Display) {
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+/// Prints JSON on standard output, as [`print`].
+///
+/// # Errors
+/// Those of [`print`].
+pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
+    print(format!("{value}\n").as_bytes())
+}
+
+/// Prints what programs read, on standard output. A reader that has read enough is no error.
 ///
 /// # Errors
 /// One line where standard output cannot be written.
-pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
-    match writeln!(std::io::stdout().lock(), "{value}") {
+pub(crate) fn print(bytes: &[u8]) -> Result<(), Failure> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::input(format!("standard output: {error}")))
         }

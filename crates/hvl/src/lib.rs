@@ -88,6 +88,7 @@ pub struct Hvl;
 impl Estimator for Hvl {
     const ID: &'static str = "hvl";
     const TITLE: &'static str = "harmonics virtual lights (Mézières et al. 2022)";
+    const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
 
     fn start<'a>(

@@ -9,22 +9,26 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         name: "bands",
         help: "bands of the shaded point's reflectance, l = 0 … bands − 1",
         kind: ParameterKind::Count { default: 5, min: 1, max: MAX_BANDS as u64 },
+        introduced: None,
     },
     ParameterInfo {
         name: "form",
         help: "0 = any lobe, bands² coefficients; 1 = one circular lobe, bands of them (thesis 5.2.7)",
         kind: ParameterKind::Count { default: 0, min: 0, max: 1 },
+        introduced: None,
     },
     ParameterInfo {
         name: "emission_bands",
         help: "bands of a glossy light's emission (thesis 5.6); 1 = isotropic, 0 = not expanded",
         kind: ParameterKind::Count { default: 0, min: 0, max: MAX_BANDS as u64 },
+        introduced: None,
     },
     ParameterInfo {
         name: "window",
         help: "on the bands of the reflectance (thesis 2.45): 0 = none, 1 = Hann, 2 = Lanczos, \
                3 = Hamming, 4 = the weakest sinc⁴ under which a lobe is not negative",
         kind: ParameterKind::Count { default: 0, min: 0, max: 4 },
+        introduced: None,
     },
     ParameterInfo::RADIUS,
     ParameterInfo::SCALE,
@@ -32,6 +36,7 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         name: "horizon",
         help: "share of a sphere above the horizon: 0 = smoothstep (thesis 5.8), 1 = exact",
         kind: ParameterKind::Count { default: 0, min: 0, max: 1 },
+        introduced: None,
     },
 ];
 

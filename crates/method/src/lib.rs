@@ -88,6 +88,10 @@ pub trait Method: Sync {
     /// One line for lists and legends, with its source.
     fn title(&self) -> &'static str;
 
+    /// Of what it computes: raised whenever the same parameters give another picture. Results of
+    /// another version are not those of this one.
+    fn version(&self) -> u32;
+
     /// Where it works.
     fn processor(&self) -> Processor;
 

@@ -37,6 +37,9 @@ pub struct ParameterInfo {
     pub help: &'static str,
     /// Kind, default, range.
     pub kind: ParameterKind,
+    /// As written, the value at which the method does what it did before it had the parameter: results
+    /// from before hold for it. `None` of parameters that were there from the start.
+    pub introduced: Option<&'static str>,
 }
 
 /// Those that several kinds of virtual lights have.
@@ -46,6 +49,7 @@ impl ParameterInfo {
         name: "lights",
         help: "cells of the reflective shadow maps, rounded up to whole square maps",
         kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
+        introduced: None,
     };
 
     /// Where radii come from, of lights that are spheres.
@@ -53,6 +57,7 @@ impl ParameterInfo {
         name: "radius",
         help: "0 = ten nearest lights, 1 = r₁ (thesis 5.9), 2 = r₂ (thesis 5.12), 3 = one metre",
         kind: ParameterKind::Count { default: 2, min: 0, max: 3 },
+        introduced: None,
     };
 
     /// Of radii, of lights that are spheres.
@@ -60,6 +65,7 @@ impl ParameterInfo {
         name: "scale",
         help: "factor on all radii; the thesis advises 1 to 2; 0 = point lights",
         kind: ParameterKind::Real { default: 1.0, min: 0.0, max: 1e6 },
+        introduced: None,
     };
 }
 
@@ -135,6 +141,11 @@ impl fmt::Display for Parameters {
 }
 
 impl ParameterInfo {
+    /// Whether a result at this value is one from before the parameter was introduced.
+    pub fn is_as_before(&self, value: f64) -> bool {
+        self.introduced.is_some_and(|text| self.parse(text) == Ok(value))
+    }
+
     fn parse(&self, text: &str) -> Result<f64, String> {
         let refuse =
             |range: String| Err(format!("parameter `{}` = `{text}`: must be {range}", self.name));

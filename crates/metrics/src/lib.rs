@@ -16,6 +16,9 @@ mod png_file;
 mod srgb;
 mod ssim;
 
+/// Of the metrics: raised whenever the same pictures give other errors.
+pub const METRICS_VERSION: u32 = 1;
+
 pub use compare::{Errors, METRICS, MetricInfo, compare, compare_display, compare_linear};
 pub use error::Error;
 pub use exr_layers::write_exr_layers;

@@ -12,8 +12,9 @@ use crate::picture::Picture;
 use crate::sums::Sums;
 use crate::{Error, Settings};
 
-/// Changes whenever the same inputs would give other sums.
-const ALGORITHM: &[u8] = b"manylights reference 2";
+/// Of references and of the pictures of the method `reference`: raised whenever the same inputs give
+/// other sums.
+pub const REFERENCE_VERSION: u32 = 2;
 
 const MAGIC: [u8; 8] = *b"MLREF\0\0\x01";
 const HEADER: usize = MAGIC.len() + KEY + size_of::<u32>();
@@ -40,7 +41,7 @@ impl CacheFile {
     /// `content` is the hash of scene and camera.
     pub(crate) fn new(folder: &Path, content: &[u8; KEY], settings: &Settings) -> Self {
         let mut hasher = Sha256::new();
-        hasher.update(ALGORITHM);
+        hasher.update(format!("manylights reference {REFERENCE_VERSION}"));
         hasher.update(content);
         hasher.update(format!("{:?}", (settings.transport, settings.resolution, settings.seed)));
         let key: [u8; KEY] = hasher.finalize().into();

@@ -12,6 +12,7 @@ mod reference;
 mod settings;
 mod sums;
 
+pub use cache::REFERENCE_VERSION;
 pub use error::Error;
 pub use manylights_paths::SLICE;
 pub use method::PathTracer;

@@ -9,6 +9,7 @@ use manylights_method::{
 use manylights_metrics::RadianceImage;
 use manylights_scene::Visibility;
 
+use crate::cache::REFERENCE_VERSION;
 use crate::picture::Picture;
 use manylights_paths::SLICE;
 
@@ -33,6 +34,10 @@ impl Method for PathTracer {
         "Path tracing on the CPU, the reference (Kajiya 1986)"
     }
 
+    fn version(&self) -> u32 {
+        REFERENCE_VERSION
+    }
+
     fn processor(&self) -> Processor {
         Processor::Cpu
     }
@@ -42,6 +47,7 @@ impl Method for PathTracer {
             name: "samples",
             help: "paths a pixel, rounded up to equal slices of at most 16",
             kind: ParameterKind::Count { default: 64, min: 1, max: 1 << 24 },
+            introduced: None,
         }]
     }
 

@@ -12,6 +12,9 @@ pub mod lobe_wgsl;
 pub mod lobes;
 pub mod zonal;
 
+/// Of the tables' coefficients: raised whenever the same lobe and number of bands give other ones.
+pub const TABLES_VERSION: u32 = 1;
+
 pub use cache::Cache;
 pub use expansion::{Damping, Form};
 pub use lobe_quadrature::{Fixed, LobeQuadrature};

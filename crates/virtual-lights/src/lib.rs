@@ -12,6 +12,10 @@ mod solid_angle;
 mod virtual_light;
 mod virtual_sphere;
 
+/// Of where virtual lights lie, what they carry and how far they reach: raised whenever the same scene,
+/// seed and count give other ones.
+pub const PLACEMENT_VERSION: u32 = 1;
+
 pub use light_gather::{LightBatches, LightGather, Lights};
 pub use lit_texels::{LIT_TEXEL, LitTexel, LitTexels, lit_texels};
 pub use many_lights::{Estimator, ManyLightFrame, ManyLightRun, PlacedLights, VirtualLights};

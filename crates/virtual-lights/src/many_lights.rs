@@ -19,6 +19,8 @@ pub trait Estimator: Sync {
     const ID: &'static str;
     /// As [`Method::title`].
     const TITLE: &'static str;
+    /// As [`Method::version`].
+    const VERSION: u32;
     /// As [`Method::parameters`], [`ParameterInfo::LIGHTS`] among them.
     const PARAMETERS: &'static [ParameterInfo];
 
@@ -43,6 +45,10 @@ impl<M: Estimator> Method for VirtualLights<M> {
 
     fn title(&self) -> &'static str {
         M::TITLE
+    }
+
+    fn version(&self) -> u32 {
+        M::VERSION
     }
 
     fn processor(&self) -> Processor {

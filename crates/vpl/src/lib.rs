@@ -41,6 +41,7 @@ pub struct Vpl;
 impl Estimator for Vpl {
     const ID: &'static str = "vpl";
     const TITLE: &'static str = "virtual point lights (Keller 1997; RSM placement)";
+    const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
 
     fn start<'a>(

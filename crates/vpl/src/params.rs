@@ -9,11 +9,13 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         name: "clamp",
         help: "largest geometry term cos·cos/d², m⁻²; 0 = unbounded",
         kind: ParameterKind::Real { default: 0.0, min: 0.0, max: 1e30 },
+        introduced: None,
     },
     ParameterInfo {
         name: "radius",
         help: "radius of Yuksel's attenuation (thesis 5.18), metres; 0 = 1/d²",
         kind: ParameterKind::Real { default: 0.0, min: 0.0, max: 1e15 },
+        introduced: None,
     },
 ];
 

@@ -87,6 +87,7 @@ pub struct Vsgl;
 impl Estimator for Vsgl {
     const ID: &'static str = "vsgl";
     const TITLE: &'static str = "virtual spherical Gaussian lights (Tokuyoshi 2015)";
+    const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
 
     fn start<'a>(

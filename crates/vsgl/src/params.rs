@@ -9,12 +9,14 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         name: "texels",
         help: "texels a side of a group; the thesis takes 14",
         kind: ParameterKind::Count { default: 14, min: 1, max: 1 << 10 },
+        introduced: None,
     },
     ParameterInfo {
         name: "lobe",
         help: "specular of the shaded point: 0 = anisotropic Gaussian (the thesis), 1 = filtered \
                distribution of normals",
         kind: ParameterKind::Count { default: 1, min: 0, max: 1 },
+        introduced: None,
     },
 ];
 

@@ -67,6 +67,7 @@ pub struct Vsl;
 impl Estimator for Vsl {
     const ID: &'static str = "vsl";
     const TITLE: &'static str = "virtual spherical lights (Hašan et al. 2009)";
+    const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
 
     fn start<'a>(

@@ -7,11 +7,13 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         name: "samples",
         help: "directions for each light and pixel, of each sampling strategy",
         kind: ParameterKind::Count { default: 9, min: 1, max: 1 << 16 },
+        introduced: None,
     },
     ParameterInfo {
         name: "sampling",
         help: "0 = BRDF of the shaded point (the thesis), 1 = cone, 2 = both, balanced",
         kind: ParameterKind::Count { default: 2, min: 0, max: 2 },
+        introduced: None,
     },
     ParameterInfo::RADIUS,
     ParameterInfo::SCALE,

@@ -183,8 +183,7 @@ mod tests {
             references: BTreeMap::new(),
         };
         let provenance = Provenance { cpu: program.into(), ..Provenance::here(None) };
-        let key = inputs.key(&provenance);
-        Cell { key, inputs, outcome: Outcome::Done(Box::new(done)), provenance }
+        Cell::new(inputs, Outcome::Done(Box::new(done)), BTreeMap::new(), provenance)
     }
 
     fn quantities(before: &[Cell], now: &[Cell]) -> Vec<String> {

@@ -8,7 +8,7 @@ use crate::commands::machine::Machine;
 use crate::commands::run;
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
-use crate::measurement::journal;
+use crate::measurement::lines;
 use crate::measurement::session::Session;
 use crate::output::{self, print_json};
 use crate::question::experiment::{self, Experiment, Profile};
@@ -40,7 +40,9 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let file = directory.join("experiment.toml");
     let experiment = experiment::read(&file, Profile::Quick).map_err(Failure::input)?;
     let path = directory.join("cells.jsonl");
-    let journal::Contents { cells: baseline, problems } = journal::read(&path)?;
+    let lines::Contents { lines: baseline, problems, notes } = lines::read(&path)?;
+    let baseline: Vec<Cell> = baseline.into_iter().map(|line| line.cell).collect();
+    notes.iter().for_each(output::say);
     if let Some(problem) = problems.first().filter(|_| !arguments.bless) {
         return Err(Failure::input(format!("{problem}: restore it, or bless with --bless")));
     }
@@ -52,7 +54,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let fresh = tempfile::tempdir().map_err(Failure::input)?;
     let cells = measure(&experiment, fresh.path(), arguments)?;
     if arguments.bless {
-        let lines: String = cells.iter().map(journal::line).collect();
+        let lines: String = cells.iter().map(lines::line).collect();
         output::write(&path, lines.as_bytes())?;
         eprintln!("{}: {} cells are the new baseline", path.display(), cells.len());
         return Ok(());

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::answer::statistics::{Quartiles, quartiles};
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Done, Outcome};
-use crate::measurement::journal;
+use crate::measurement::lines;
 use crate::output::print_json;
 use clap::Args;
 use std::path::PathBuf;
@@ -37,8 +37,7 @@ pub(crate) struct ExportArguments {
 /// one.
 pub(crate) fn run(arguments: &ExportArguments) -> Result<(), Failure> {
     let path = arguments.directory.join("cells.jsonl");
-    let journal::Contents { cells, problems } = journal::read(&path)?;
-    problems.iter().for_each(|problem| eprintln!("{problem}"));
+    let cells = lines::read(&path)?.told("left out");
     let at = |reason: &str| Failure::input(format!("{}: {reason}", path.display()));
     let machine = &cells.first().ok_or_else(|| at("no cells: run an experiment first"))?.provenance;
     if cells.iter().any(|cell| cell.provenance.machine != machine.machine) {
@@ -51,15 +50,13 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<(), Failure> {
     })
 }
 
-/// The cells of the last build and size, each once: a folder may hold several profiles, and cells that
-/// ran again stand in it twice.
+/// The cells of the last size, each once: a folder may hold several profiles, and cells that ran again
+/// stand in it twice, the later ones of the newer build.
 fn latest(cells: &[Cell]) -> Vec<&Cell> {
-    let size = |cell: &Cell| {
-        (cell.provenance.program.clone(), cell.inputs.resolution, cell.inputs.references.clone())
-    };
+    let size = |cell: &Cell| (cell.inputs.resolution, cell.inputs.references.clone());
     let last = cells.last().map(size);
     let alike = cells.iter().filter(|cell| Some(size(cell)) == last);
-    alike.map(|cell| (&cell.key, cell)).collect::<BTreeMap<_, _>>().into_values().collect()
+    alike.map(|cell| (cell.inputs.identity(), cell)).collect::<BTreeMap<_, _>>().into_values().collect()
 }
 
 /// Quartiles by benchmark (scene and variant) and measure.

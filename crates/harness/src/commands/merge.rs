@@ -4,9 +4,10 @@ use std::path::Path;
 
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
-use crate::measurement::journal::{self, Journal};
+use crate::measurement::journal::Journal;
+use crate::measurement::lines;
 use crate::measurement::scene_cells::image_path;
-use crate::output;
+use crate::output::{self, say};
 use crate::show::answer_files;
 use crate::show::report::{self, Loaded};
 use clap::Args;
@@ -33,17 +34,19 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
     let mut journal = Journal::open(out)?;
     for directory in &arguments.directories {
         keep_question(directory, out)?;
-        let journal::Contents { cells, problems } = journal::read(&directory.join("cells.jsonl"))?;
-        problems.iter().for_each(|problem| eprintln!("{problem}; left out"));
-        if cells.is_empty() {
+        let lines::Contents { lines, problems, notes } =
+            lines::read(&directory.join("cells.jsonl"))?;
+        notes.iter().for_each(say);
+        problems.iter().for_each(|problem| say(format_args!("{problem}; left out")));
+        if lines.is_empty() {
             return Err(Failure::input(format!("{}: no cells to merge", directory.display())));
         }
         copy_references(directory, out)?;
-        for cell in &cells {
+        for line in lines {
             // Pictures first: a cell of the journal has one.
-            if journal.get(&cell.key) != Some(cell) {
-                copy_pictures(cell, directory, out)?;
-                journal.append(cell)?;
+            if journal.get(&line.cell.key) != Some(&line.cell) {
+                copy_pictures(&line.cell, directory, out)?;
+                journal.append_line(line)?;
             }
         }
     }

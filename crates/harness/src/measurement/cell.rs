@@ -8,10 +8,23 @@ use serde::{Deserialize, Serialize};
 use crate::error::one_line;
 use crate::measurement::inputs::Inputs;
 use crate::measurement::provenance::{Provenance, sha256};
+use crate::measurement::versions::Versions;
+
+/// Of the lines that are written. Raised when a program of an older format would misread them; fields that
+/// it may ignore, and fields that have a default where they are missing, are no reason.
+///
+/// | format | lines |
+/// |---|---|
+/// | 1 | without `format` and `versions`; keys hash the program, and name the pictures still |
+/// | 2 | keys hash [`versions`](crate::measurement::versions) instead |
+pub(crate) const FORMAT: u32 = 2;
 
 /// A finished cell.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Cell {
+    /// See [`FORMAT`].
+    #[serde(default = "first_format")]
+    pub(crate) format: u32,
     /// See [`Inputs::key`].
     pub(crate) key: String,
     /// What was asked.
@@ -20,8 +33,29 @@ pub(crate) struct Cell {
     /// What came out.
     #[serde(flatten)]
     pub(crate) outcome: Outcome,
+    /// Of what computed it.
+    #[serde(default)]
+    pub(crate) versions: Versions,
     /// Program and machine.
     pub(crate) provenance: Provenance,
+}
+
+impl Cell {
+    /// In the format of today.
+    pub(crate) fn new(
+        inputs: Inputs,
+        outcome: Outcome,
+        versions: Versions,
+        provenance: Provenance,
+    ) -> Self {
+        let key = inputs.key(&versions, &provenance);
+        Self { format: FORMAT, key, inputs, outcome, versions, provenance }
+    }
+}
+
+/// What lines have that name no format.
+pub(crate) fn first_format() -> u32 {
+    1
 }
 
 /// How a cell ended.
@@ -60,20 +94,24 @@ pub(crate) struct Done {
     /// Value of the method's cost parameter: as asked for, or as found for a time budget.
     pub(crate) amount: u64,
     /// Visibility of the last segment that the method computes, where it is a choice.
+    #[serde(default)]
     pub(crate) visibility: Option<String>,
     /// Wall clock of what does not depend on the amount of work.
     pub(crate) prepare_seconds: f64,
     /// Wall clock of the work. Warmed up; without read-back, metrics and files.
     pub(crate) step_seconds: f64,
     /// By the processor's own clock.
+    #[serde(default)]
     pub(crate) pass_seconds: BTreeMap<String, f64>,
     /// What the method counted.
+    #[serde(default)]
     pub(crate) counters: BTreeMap<String, u64>,
     /// Of the pixels' bits, row by row, little endian.
     pub(crate) image_sha256: String,
     /// By visibility of the reference.
     pub(crate) errors: BTreeMap<String, Comparison>,
     /// The way to the picture, at doubling amounts, where the method is progressive.
+    #[serde(default)]
     pub(crate) checkpoints: Vec<Checkpoint>,
 }
 
@@ -161,21 +199,30 @@ mod tests {
             checkpoints: vec![checkpoint],
         };
         let provenance = Provenance::here(None);
-        let key = inputs().key(&provenance);
         let outcome = Outcome::Done(Box::new(done));
-        let cell = Cell { key, inputs: inputs(), outcome, provenance };
+        let cell = Cell::new(inputs(), outcome, Versions::new(), provenance);
         let line = serde_json::to_string(&cell).expect("plain data");
         assert!(!line.contains('\n'));
         assert_eq!(serde_json::from_str::<Cell>(&line).expect("own line"), cell);
     }
 
     #[test]
-    fn the_key_depends_on_inputs_and_program() {
+    fn the_key_depends_on_inputs_versions_and_machine_not_on_the_build() {
         let here = Provenance::here(None);
         let other_seed = Inputs { seed: 2, ..inputs() };
-        let other_program = Provenance { program: "another".into(), ..here.clone() };
-        assert_eq!(inputs().key(&here), inputs().key(&here));
-        assert_ne!(inputs().key(&here), other_seed.key(&here));
-        assert_ne!(inputs().key(&here), inputs().key(&other_program));
+        let other_build = Provenance {
+            program: "another".into(),
+            commit: Some("another".into()),
+            rustc: "another".into(),
+            ..here.clone()
+        };
+        let other_machine = Provenance { machine: "another".into(), ..here.clone() };
+        let first = Versions::from([("method".into(), 1)]);
+        let second = Versions::from([("method".into(), 2)]);
+        let key = inputs().key(&first, &here);
+        assert_eq!(key, inputs().key(&first, &other_build));
+        assert_ne!(key, other_seed.key(&first, &here));
+        assert_ne!(key, inputs().key(&second, &here));
+        assert_ne!(key, inputs().key(&first, &other_machine));
     }
 }

@@ -6,8 +6,10 @@ use manylights_scene::Scene;
 use serde::{Deserialize, Serialize};
 
 use crate::measurement::provenance::{Provenance, sha256};
+use crate::measurement::versions::Versions;
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Budget, Variant};
+use crate::registry;
 
 /// What decides the picture and its errors, and where its time was taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,11 +66,25 @@ impl Inputs {
         }
     }
 
+    /// What is asked, as text: the same for inputs that differ only in parameters which one of them is
+    /// from before, where the other has them at the value that stands for that.
+    pub(crate) fn identity(&self) -> String {
+        let mut essential = self.clone();
+        if let Ok(method) = registry::method(&self.method) {
+            let infos = method.parameters();
+            essential.parameters.retain(|name, value| {
+                let info = infos.iter().find(|info| info.name == name);
+                !info.is_some_and(|info| info.is_as_before(*value))
+            });
+        }
+        serde_json::to_string(&essential).expect("inputs are plain data")
+    }
+
     /// Names what is asked, whoever answers: the same for all seeds and repetitions, which one
     /// machine must answer together, on every machine and in every build.
     pub(crate) fn question(&self) -> String {
         let asked = Self { seed: 0, repetition: 0, ..self.clone() };
-        sha256(&serde_json::to_vec(&asked).expect("inputs are plain data"))
+        sha256(asked.identity().as_bytes())
     }
 
     /// Method, parameters and budget, for people and trackers.
@@ -84,10 +100,11 @@ impl Inputs {
         words.join(" ")
     }
 
-    /// Names the cell: the hash of the inputs, the program and the machine. A cell of the same key
-    /// need not run again.
-    pub(crate) fn key(&self, provenance: &Provenance) -> String {
-        let text = serde_json::to_string(&(self, provenance)).expect("inputs are plain data");
+    /// Names the cell: the hash of the inputs, of the versions of what computes it and of the machine.
+    /// A cell of the same key need not run again.
+    pub(crate) fn key(&self, versions: &Versions, provenance: &Provenance) -> String {
+        let versions = serde_json::to_string(versions).expect("numbers are plain data");
+        let text = format!("[{},{versions},{}]", self.identity(), provenance.place());
         sha256(text.as_bytes())
     }
 }

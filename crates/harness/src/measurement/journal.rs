@@ -7,17 +7,18 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Failure;
 use crate::measurement::cell::Cell;
-use crate::output;
+use crate::measurement::lines::{self, Line, line};
+use crate::output::{self, say};
 
 /// The cells of a directory of results, held against other processes.
 pub(crate) struct Journal {
     path: PathBuf,
     file: File,
-    cells: BTreeMap<String, Cell>,
+    lines: BTreeMap<String, Line>,
     /// Keys in the order of the file.
     order: Vec<String>,
     /// Of the file: more than keys where cells ran again.
-    lines: usize,
+    written: usize,
     /// Held until this process ends, however it ends.
     _lock: File,
 }
@@ -32,35 +33,30 @@ impl Journal {
         let lock = lock(directory)?;
         let path = directory.join("cells.jsonl");
         let at = |error: std::io::Error| Failure::input(format!("{}: {error}", path.display()));
-        let Contents { cells: lines, problems } = read(&path)?;
+        let lines::Contents { lines: found, problems, notes } = lines::read(&path)?;
+        notes.iter().for_each(say);
         for problem in &problems {
-            eprintln!("{problem}; its cell runs again");
-        }
-        let (mut cells, mut order) = (BTreeMap::new(), Vec::new());
-        let count = lines.len();
-        let kept: String = lines.iter().map(line).collect();
-        for cell in lines {
-            // The later line of a key that failed and ran again counts.
-            let key = cell.key.clone();
-            if cells.insert(key.clone(), cell).is_none() {
-                order.push(key);
-            }
+            say(format_args!("{problem}; dropped, its cell runs again"));
         }
         if !problems.is_empty() {
+            let kept: String = found.iter().map(|line| line.text.as_str()).collect();
             output::write(&path, kept.as_bytes())?;
         }
         let file = open(&path).map_err(at)?;
-        Ok(Self { path, file, cells, order, lines: count, _lock: lock })
+        let (lines, order) = (BTreeMap::new(), Vec::new());
+        let mut journal = Self { path, file, lines, order, written: 0, _lock: lock };
+        found.into_iter().for_each(|line| journal.keep(line));
+        Ok(journal)
     }
 
     /// The finished cell of this key.
     pub(crate) fn get(&self, key: &str) -> Option<&Cell> {
-        self.cells.get(key)
+        self.lines.get(key).map(|line| &line.cell)
     }
 
     /// All cells, in the order in which they were first written.
     pub(crate) fn cells(&self) -> impl DoubleEndedIterator<Item = &Cell> {
-        self.order.iter().map(|key| &self.cells[key])
+        self.order.iter().map(|key| &self.lines[key].cell)
     }
 
     /// Adds a finished cell.
@@ -68,18 +64,32 @@ impl Journal {
     /// # Errors
     /// One line where the file cannot be written.
     pub(crate) fn append(&mut self, cell: &Cell) -> Result<(), Failure> {
+        self.append_line(Line { cell: cell.clone(), text: line(cell) })
+    }
+
+    /// As [`Self::append`], word for word.
+    ///
+    /// # Errors
+    /// One line where the file cannot be written.
+    pub(crate) fn append_line(&mut self, line: Line) -> Result<(), Failure> {
         self.file
-            .write_all(line(cell).as_bytes())
+            .write_all(line.text.as_bytes())
             .and_then(|()| self.file.sync_data())
             .map_err(|error| Failure::input(format!("cells.jsonl: {error}")))?;
-        self.lines += 1;
-        if self.cells.insert(cell.key.clone(), cell.clone()).is_none() {
-            self.order.push(cell.key.clone());
-        }
+        self.keep(line);
         Ok(())
     }
 
-    /// Drops the cells that another build made of the same inputs on the same machine as `current`,
+    /// The later line of a key that failed and ran again counts.
+    fn keep(&mut self, line: Line) {
+        self.written += 1;
+        let key = line.cell.key.clone();
+        if self.lines.insert(key.clone(), line).is_none() {
+            self.order.push(key);
+        }
+    }
+
+    /// Drops the cells that another version made of the same inputs on the same machine as `current`,
     /// and the earlier lines of cells that ran again. Gives the keys of the former.
     ///
     /// # Errors
@@ -88,60 +98,22 @@ impl Journal {
         let superseded = |cell: &Cell| {
             current.iter().any(|other| {
                 other.key != cell.key
-                    && other.inputs == cell.inputs
+                    && other.inputs.identity() == cell.inputs.identity()
                     && other.provenance.same_machine(&cell.provenance)
             })
         };
         let (retired, kept): (Vec<String>, Vec<String>) =
-            self.order.drain(..).partition(|key| superseded(&self.cells[key]));
+            self.order.drain(..).partition(|key| superseded(&self.lines[key].cell));
         self.order = kept;
-        if !retired.is_empty() || self.lines > self.order.len() {
-            let lines = self.order.iter().map(|key| line(&self.cells[key])).collect::<String>();
+        if !retired.is_empty() || self.written > self.order.len() {
+            let lines = self.order.iter().map(|key| self.lines[key].text.as_str()).collect::<String>();
             output::write(&self.path, lines.as_bytes())?;
-            self.lines = self.order.len();
+            self.written = self.order.len();
             // The old handle is that of the file that was replaced.
             self.file = open(&self.path).map_err(Failure::input)?;
         }
         Ok(retired)
     }
-}
-
-/// The lines of a journal.
-pub(crate) struct Contents {
-    /// What could be read, in the order of the file; a key may occur twice, the later line counts.
-    pub(crate) cells: Vec<Cell>,
-    /// One line for each line that is not a cell.
-    pub(crate) problems: Vec<String>,
-}
-
-/// Reads the cells at `path`; none where there is no file. A line is not a cell where a run was killed
-/// while writing it, where it was edited, or where another version wrote it.
-///
-/// # Errors
-/// One line where the file cannot be read.
-pub(crate) fn read(path: &Path) -> Result<Contents, Failure> {
-    let at = |error: std::io::Error| Failure::input(format!("{}: {error}", path.display()));
-    let bytes = if path.exists() { std::fs::read(path).map_err(at)? } else { Vec::new() };
-    let text = String::from_utf8_lossy(&bytes);
-    let mut contents = Contents { cells: Vec::new(), problems: Vec::new() };
-    let ends = text.is_empty() || text.ends_with('\n');
-    let count = text.lines().count();
-    for (number, line) in (1..).zip(text.lines()) {
-        let place = || format!("{} line {number}", path.display());
-        match serde_json::from_str::<Cell>(line) {
-            // Without its line break, a line may be the start of a longer one.
-            Ok(_) if number == count && !ends => {
-                contents.problems.push(format!("{}: damaged, dropped", place()));
-            }
-            Ok(cell) if cell.key == cell.inputs.key(&cell.provenance) => contents.cells.push(cell),
-            Ok(_) => {
-                let reason = "foreign: its key is not that of its inputs; dropped";
-                contents.problems.push(format!("{}: {reason}", place()));
-            }
-            Err(_) => contents.problems.push(format!("{}: damaged, dropped", place())),
-        }
-    }
-    Ok(contents)
 }
 
 /// Two processes that append to one file, or replace it, would lose cells.
@@ -163,54 +135,15 @@ fn open(path: &Path) -> std::io::Result<File> {
     OpenOptions::new().create(true).append(true).open(path)
 }
 
-/// The line of a cell.
-pub(crate) fn line(cell: &Cell) -> String {
-    serde_json::to_string(cell).expect("a cell is plain data") + "\n"
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measurement::cell::Outcome;
-    use crate::measurement::inputs::Inputs;
-    use crate::measurement::provenance::Provenance;
-    use crate::question::plan::Budget;
+    use crate::measurement::valid::tests::done_cell;
+    use crate::measurement::versions::Versions;
 
-    fn cell(seed: u64, program: &str) -> Cell {
-        let provenance = Provenance { program: program.into(), ..Provenance::here(None) };
-        let inputs = Inputs {
-            scene: "s".into(),
-            scene_content: "c".into(),
-            method: "m".into(),
-            parameters: BTreeMap::new(),
-            budget: Budget::Count,
-            seed,
-            repetition: 0,
-            transport: "all".into(),
-            asked_visibility: None,
-            resolution: [16, 16],
-            exposure: 1.0,
-            references: BTreeMap::new(),
-        };
-        let outcome = Outcome::Declined { reason: "no".into() };
-        Cell { key: inputs.key(&provenance), inputs, outcome, provenance }
-    }
-
-    #[test]
-    fn foreign_and_damaged_lines_are_named_and_not_used() {
-        let folder = tempfile::tempdir().expect("temporary folder");
-        let path = folder.path().join("cells.jsonl");
-        let [good, other] = [cell(1, "p"), cell(2, "p")];
-        let foreign = line(&Cell { key: good.key.clone(), ..other });
-        let killed = line(&good);
-        let text = format!("{foreign}nonsense\n{}{}", line(&good), killed.trim_end());
-        std::fs::write(&path, text).expect("writable");
-        let contents = read(&path).expect("readable");
-        assert_eq!(contents.cells, std::slice::from_ref(&good));
-        let [foreign, damaged, killed] = &contents.problems[..] else { panic!("three problems") };
-        assert!(foreign.contains("line 1: foreign"), "{foreign}");
-        assert!(damaged.contains("line 2: damaged"), "{damaged}");
-        assert!(killed.contains("line 4: damaged"), "{killed}");
+    fn cell(seed: u64, version: u32) -> Cell {
+        let Cell { inputs, outcome, provenance, .. } = done_cell(seed);
+        Cell::new(inputs, outcome, Versions::from([("method".into(), version)]), provenance)
     }
 
     #[test]
@@ -224,10 +157,9 @@ mod tests {
     }
 
     #[test]
-    fn cells_of_an_older_build_are_retired_and_later_ones_still_written() {
+    fn cells_of_an_older_version_are_retired_and_later_ones_still_written() {
         let folder = tempfile::tempdir().expect("temporary folder");
-        let [old, other, new, last] =
-            [cell(1, "old"), cell(2, "old"), cell(1, "new"), cell(3, "new")];
+        let [old, other, new, last] = [cell(1, 1), cell(2, 1), cell(1, 2), cell(3, 2)];
         let mut journal = Journal::open(folder.path()).expect("a new journal");
         for cell in [&old, &other, &new] {
             journal.append(cell).expect("writable");
@@ -241,5 +173,19 @@ mod tests {
         assert_eq!(journal.order, keys);
         assert_eq!(journal.get(&last.key), Some(&last));
         assert_eq!(journal.get(&old.key), None);
+    }
+
+    #[test]
+    fn what_a_newer_program_wrote_is_kept_as_it_is() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let path = folder.path().join("cells.jsonl");
+        let text = line(&cell(1, 1)).replacen('{', "{\"weather\":\"fine\",", 1);
+        std::fs::write(&path, format!("{text}nonsense\n")).expect("writable");
+        let mut journal = Journal::open(folder.path()).expect("a journal");
+        journal.append(&cell(2, 1)).expect("writable");
+        journal.append(&cell(2, 1)).expect("writable");
+        journal.retire(&[]).expect("writable");
+        let kept = std::fs::read_to_string(&path).expect("a journal");
+        assert_eq!(kept, text + &line(&cell(2, 1)));
     }
 }

@@ -15,7 +15,7 @@ pub(crate) struct Provenance {
     pub(crate) commit: Option<String>,
     /// Compiler.
     pub(crate) rustc: String,
-    /// SHA-256 of the running program, which holds all shaders: cells of another build run again.
+    /// SHA-256 of the running program, for information: what decides is [`super::versions`].
     pub(crate) program: String,
     /// Which machine: `MANYLIGHTS_MACHINE`, else made from system, processor and threads. Times of
     /// different machines are never compared.
@@ -53,9 +53,19 @@ impl Provenance {
         }
     }
 
+    /// What of it decides digits and times: machine and driver, not the program.
+    pub(crate) fn place(&self) -> serde_json::Value {
+        let adapter = self.adapter.as_ref().map(|adapter| {
+            let fields = ["backend", "device_type", "driver", "driver_info", "name", "vendor"];
+            serde_json::Value::from_iter(fields.map(|field| (field, adapter[field].clone())))
+        });
+        let Self { machine, system, cpu, threads, .. } = self;
+        serde_json::json!([machine, system, cpu, threads, adapter])
+    }
+
     /// Whether both differ in the program alone.
     pub(crate) fn same_machine(&self, other: &Self) -> bool {
-        self.machine == other.machine && self.adapter == other.adapter
+        self.place() == other.place()
     }
 
     /// `manylights 0.1.0 (abc123)`.

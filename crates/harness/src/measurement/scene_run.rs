@@ -17,6 +17,7 @@ use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::{SceneCells, image_path};
 use crate::measurement::session::Session;
 use crate::measurement::stage::Stage;
+use crate::measurement::versions;
 use crate::progress::Progress;
 use crate::question::experiment::REFERENCE_SEED;
 use crate::question::plan::{Turn, Variant, interleaved};
@@ -107,7 +108,8 @@ impl SceneRun<'_, '_> {
             let variant = &experiment.variants[turn.variant];
             let inputs = self.inputs(variant, turn);
             let provenance = self.provenance(variant).clone();
-            let key = inputs.key(&provenance);
+            let versions = versions::of(variant.method);
+            let key = inputs.key(&versions, &provenance);
             self.recall_amount(turn.variant, &inputs, &provenance);
             if let Some(cell) = self.finished(&key, turn) {
                 cells.push((turn, cell));
@@ -119,7 +121,7 @@ impl SceneRun<'_, '_> {
             }
             self.ran = true;
             let outcome = self.outcome(turn, &key, &cells)?;
-            let cell = Cell { key, inputs, outcome, provenance };
+            let cell = Cell::new(inputs, outcome, versions, provenance);
             self.session.journal.append(&cell)?;
             progress.line(&self.summary(turn, &cell));
             cells.push((turn, cell));

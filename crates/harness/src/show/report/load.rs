@@ -8,7 +8,7 @@ use manylights_scene::Visibility;
 
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
-use crate::measurement::journal;
+use crate::measurement::lines;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::SceneCells;
@@ -38,10 +38,7 @@ pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
             file.display()
         ))
     };
-    let journal::Contents { cells, problems } = journal::read(&directory.join("cells.jsonl"))?;
-    for problem in problems {
-        eprintln!("{problem}; left out");
-    }
+    let cells = lines::read(&directory.join("cells.jsonl"))?.told("left out");
     let last = cells.last().ok_or_else(|| refuse("there are no cells in cells.jsonl"))?;
     let experiment = profile_of(last, &file)?
         .ok_or_else(|| refuse("the last cell is of another experiment or profile"))?;

@@ -1,0 +1,198 @@
+//! Whether a line of `cells.jsonl` can be what a run wrote. Keys vouch for what was asked; this is for
+//! what came out, which files, tables and figures take on trust.
+
+use std::collections::BTreeMap;
+
+use manylights_metrics::Errors;
+
+use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
+use crate::question::plan::Budget;
+use crate::question::settings;
+
+/// More than any run takes, 30 years.
+const MOST_SECONDS: f64 = 1e9;
+/// More than any error of radiance: the square of the largest 32-bit float.
+const MOST_ERROR: f64 = 1.2e77;
+/// More decibels than two such numbers can be apart.
+const MOST_DECIBELS: f64 = 2000.0;
+
+/// Refuses a cell that no run writes.
+///
+/// # Errors
+/// One line that names the field.
+pub(crate) fn check(cell: &Cell) -> Result<(), String> {
+    let Cell { key, inputs, outcome, provenance, .. } = cell;
+    let hashes = [("key", key), ("scene_content", &inputs.scene_content)];
+    hashes.into_iter().try_for_each(|(name, text)| hash(name, text))?;
+    // It becomes part of the names of files.
+    if inputs.scene.is_empty() || inputs.scene.contains(['/', '\\']) || is_broken(&inputs.scene) {
+        return Err("`scene` is not a name".into());
+    }
+    if provenance.machine.is_empty() || is_broken(&provenance.machine) {
+        return Err("`machine` is not a name".into());
+    }
+    settings::check_resolution(inputs.resolution)?;
+    if let Budget::Seconds(seconds) = inputs.budget {
+        within("budget", seconds, f64::MIN_POSITIVE, MOST_SECONDS)?;
+    }
+    within("exposure", inputs.exposure.into(), f64::MIN_POSITIVE, f32::MAX.into())?;
+    match outcome {
+        Outcome::Done(done) => check_done(done, &inputs.references),
+        Outcome::Declined { reason } | Outcome::Failed { reason } if reason.trim().is_empty() => {
+            Err("`reason` is empty".into())
+        }
+        Outcome::Declined { .. } | Outcome::Failed { .. } => Ok(()),
+    }
+}
+
+fn check_done(done: &Done, references: &BTreeMap<String, u32>) -> Result<(), String> {
+    within("prepare_seconds", done.prepare_seconds, 0.0, MOST_SECONDS)?;
+    within("step_seconds", done.step_seconds, f64::MIN_POSITIVE, MOST_SECONDS)?;
+    for &seconds in done.pass_seconds.values() {
+        within("pass_seconds", seconds, 0.0, MOST_SECONDS)?;
+    }
+    hash("image_sha256", &done.image_sha256)?;
+    if !done.errors.keys().eq(references.keys()) {
+        return Err("`errors` and `references` name different references".into());
+    }
+    done.errors.values().try_for_each(check_comparison)?;
+    for Checkpoint { step_seconds, display_rmse, .. } in &done.checkpoints {
+        within("step_seconds", *step_seconds, f64::MIN_POSITIVE, MOST_SECONDS)?;
+        for &rmse in display_rmse.values() {
+            within("display_rmse", rmse, 0.0, 1.0)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_comparison(comparison: &Comparison) -> Result<(), String> {
+    let Comparison { linear, display, linear_floor, display_floor } = comparison;
+    for (errors, most) in [(linear, MOST_ERROR), (display, 1.0)] {
+        let Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999 } = *errors;
+        within("rmse", rmse, 0.0, most)?;
+        within("mse", mse, 0.0, most)?;
+        within("mae", mae, 0.0, most)?;
+        within("ssim", ssim, -1.0, 1.0)?;
+        within("rel_mse", rel_mse, 0.0, MOST_ERROR)?;
+        within("smape", smape, 0.0, 1.0)?;
+        within("rel_p999", rel_p999, 0.0, MOST_ERROR)?;
+        // Of identical pictures it is infinite.
+        if mse > 0.0 || psnr != f64::INFINITY {
+            within("psnr", psnr, -MOST_DECIBELS, MOST_DECIBELS)?;
+        }
+    }
+    within("linear_floor", *linear_floor, 0.0, MOST_ERROR)?;
+    within("display_floor", *display_floor, 0.0, 1.0)
+}
+
+fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), String> {
+    // Means of numbers within bounds may round to just outside.
+    let slack = 1e-9 * high.abs().min(1.0);
+    if (low..=high + slack).contains(&value) || value == low {
+        Ok(())
+    } else {
+        Err(format!("`{name}` cannot be {value}"))
+    }
+}
+
+fn hash(name: &str, text: &str) -> Result<(), String> {
+    let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
+    if text.len() == 64 && text.bytes().all(is_digit) {
+        Ok(())
+    } else {
+        Err(format!("`{name}` is not a hash of 64 hexadecimal digits"))
+    }
+}
+
+fn is_broken(text: &str) -> bool {
+    text.contains(char::is_control)
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::measurement::inputs::Inputs;
+    use crate::measurement::provenance::{Provenance, sha256};
+    use crate::measurement::versions::Versions;
+
+    /// A cell such as a run writes.
+    pub(crate) fn done_cell(seed: u64) -> Cell {
+        let errors = Errors {
+            rmse: 0.1,
+            mse: 0.01,
+            mae: 0.1,
+            psnr: 20.0,
+            ssim: 0.5,
+            rel_mse: 0.3,
+            smape: 0.2,
+            rel_p999: 0.9,
+        };
+        let comparison =
+            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
+        let done = Done {
+            amount: 32,
+            visibility: Some("traced".into()),
+            prepare_seconds: 0.25,
+            step_seconds: 0.3,
+            pass_seconds: BTreeMap::from([("gather".into(), 0.125)]),
+            counters: BTreeMap::from([("rays".into(), 7)]),
+            image_sha256: sha256(b"picture"),
+            errors: BTreeMap::from([("traced".into(), comparison)]),
+            checkpoints: vec![Checkpoint {
+                amount: 16,
+                step_seconds: 0.01,
+                display_rmse: BTreeMap::from([("traced".into(), 0.1)]),
+            }],
+        };
+        let inputs = Inputs {
+            scene: "s".into(),
+            scene_content: sha256(b"content"),
+            method: "m".into(),
+            parameters: BTreeMap::new(),
+            budget: Budget::Count,
+            seed,
+            repetition: 0,
+            transport: "all".into(),
+            asked_visibility: None,
+            resolution: [16, 16],
+            exposure: 1.0,
+            references: BTreeMap::from([("traced".into(), 32)]),
+        };
+        let outcome = Outcome::Done(Box::new(done));
+        Cell::new(inputs, outcome, Versions::new(), Provenance::here(None))
+    }
+
+    #[test]
+    fn absurd_outcomes_are_named() {
+        assert_eq!(check(&done_cell(1)), Ok(()));
+        type Edit = fn(&mut Done);
+        let edits: [(Edit, &str); 12] = [
+            (|done| done.step_seconds = -1.0, "step_seconds"),
+            (|done| done.step_seconds = 0.0, "step_seconds"),
+            (|done| done.prepare_seconds = f64::NAN, "prepare_seconds"),
+            (|done| done.step_seconds = 1e300, "step_seconds"),
+            (|done| done.image_sha256.truncate(3), "image_sha256"),
+            (|done| done.image_sha256.clear(), "image_sha256"),
+            (|done| done.errors.clear(), "errors"),
+            (|done| done.checkpoints[0].step_seconds = 0.0, "step_seconds"),
+            (|done| done.checkpoints[0].display_rmse = [("traced".into(), -0.1)].into(), "rmse"),
+            (|done| edit_errors(done, |errors| errors.psnr = f64::INFINITY), "psnr"),
+            (|done| edit_errors(done, |errors| errors.rmse = f64::NEG_INFINITY), "rmse"),
+            (|done| edit_errors(done, |errors| errors.ssim = 7.0), "ssim"),
+        ];
+        for (edit, said) in edits {
+            let mut cell = done_cell(1);
+            let Outcome::Done(done) = &mut cell.outcome else { panic!("it is done") };
+            edit(done);
+            let reason = check(&cell).expect_err(said);
+            assert!(reason.contains(said) && reason.lines().count() == 1, "{reason} / {said}");
+        }
+        let mut cell = done_cell(1);
+        cell.inputs.scene = "../../elsewhere".into();
+        assert!(check(&cell).is_err());
+    }
+
+    fn edit_errors(done: &mut Done, edit: impl Fn(&mut Errors)) {
+        done.errors.values_mut().for_each(|comparison| edit(&mut comparison.display));
+    }
+}

@@ -1,0 +1,37 @@
+//! What a cell was computed by, in numbers that are raised when it computes something else.
+//!
+//! They stand in a cell's key in the place of a hash of the program, which changes at every build. A test
+//! (`tests/tests/versions.rs`) renders small pictures of each and fails where one moved and its number did
+//! not.
+
+use std::collections::BTreeMap;
+
+use manylights_gpu::SHADERS_VERSION;
+use manylights_method::{Method, Processor};
+use manylights_metrics::METRICS_VERSION;
+use manylights_path_tracer::REFERENCE_VERSION;
+use manylights_reflectance::TABLES_VERSION;
+use manylights_virtual_lights::PLACEMENT_VERSION;
+
+/// Versions by name. Of a cell from before they were counted there are none.
+pub(crate) type Versions = BTreeMap<String, u32>;
+
+/// Those that a cell of `method` depends on. On the adapter these are all shared stages, whether or not
+/// the method uses them: a cell that runs again needlessly costs minutes, one that does not is wrong.
+pub(crate) fn of(method: &dyn Method) -> Versions {
+    let everywhere = [
+        ("method", method.version()),
+        ("metrics", METRICS_VERSION),
+        ("reference", REFERENCE_VERSION),
+    ];
+    let on_adapter = [
+        ("placement", PLACEMENT_VERSION),
+        ("shaders", SHADERS_VERSION),
+        ("tables", TABLES_VERSION),
+    ];
+    let shared = match method.processor() {
+        Processor::Cpu => &[][..],
+        Processor::Gpu => &on_adapter[..],
+    };
+    everywhere.iter().chain(shared).map(|&(name, version)| (name.to_owned(), version)).collect()
+}
