@@ -15,7 +15,9 @@ use glam::Vec3;
 use manylights_gpu::{SHADERS_VERSION, Shadows};
 use manylights_harness::registry::METHODS;
 use manylights_method::{Method, Processor};
-use manylights_metrics::{METRICS, METRICS_VERSION, RadianceImage, compare_display, compare_linear};
+use manylights_metrics::{
+    METRICS, METRICS_VERSION, RadianceImage, compare_display, compare_linear,
+};
 use manylights_path_tracer::{REFERENCE_VERSION, Settings};
 use manylights_reflectance::lobes::LobeTable;
 use manylights_reflectance::zonal::ZonalTable;
@@ -72,7 +74,8 @@ impl Sketch {
         if let Some(hash) = recorded["hash"][place].as_str() {
             return (hash != self.hash).then(|| "other bits".to_owned());
         }
-        let means: Vec<f64> = recorded["means"].as_array()?.iter().filter_map(Value::as_f64).collect();
+        let means: Vec<f64> =
+            recorded["means"].as_array()?.iter().filter_map(Value::as_f64).collect();
         if means.len() != self.means.len() {
             return Some(format!("{} means for {}", self.means.len(), means.len()));
         }
@@ -200,7 +203,8 @@ fn sketches() -> BTreeMap<String, Sketch> {
         ("metrics", of_metrics()),
     ];
     let stages = stages.map(|(name, sketch)| (format!("stage {name}"), sketch));
-    let methods = METHODS.iter().map(|&method| (format!("method {}", method.id()), of_method(method)));
+    let methods =
+        METHODS.iter().map(|&method| (format!("method {}", method.id()), of_method(method)));
     methods.chain(stages).collect()
 }
 

@@ -90,10 +90,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure>
         Command::Merge(arguments) => commands::merge::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Export(arguments) => commands::export::run(&arguments),
-        Command::Completions { shell } => {
-            commands::completions::run(shell, &mut Cli::command());
-            Ok(())
-        }
+        Command::Completions { shell } => commands::completions::run(shell, &mut Cli::command()),
     }
 }
 

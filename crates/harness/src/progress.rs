@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::output::say;
+
 /// Shorter work stays silent where there is no terminal.
 const QUIET: Duration = Duration::from_secs(2);
 /// Between two plain lines.
@@ -36,13 +38,13 @@ impl Progress {
         let now = Instant::now();
         if self.bar.is_hidden() && done < total && now >= self.next_line {
             self.next_line = now + INTERVAL;
-            eprintln!("{}: {}", self.label, plain(done, total, now - self.started));
+            say(format_args!("{}: {}", self.label, plain(done, total, now - self.started)));
         }
     }
 
     /// Prints a line above the bar.
     pub(crate) fn line(&self, text: &str) {
-        self.bar.suspend(|| eprintln!("{text}"));
+        self.bar.suspend(|| say(text));
     }
 }
 

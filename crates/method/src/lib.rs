@@ -2,6 +2,7 @@
 //!
 //! A method never sees the clock, the budget, the reference or the file system. It is progressive:
 //! [`Method::prepare`], then [`Run::step`] until it says that it is done, then [`Run::resolve`].
+#![warn(clippy::print_stderr, clippy::print_stdout)]
 
 mod parameters;
 

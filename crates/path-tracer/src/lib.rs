@@ -3,6 +3,7 @@
 //! Radiance through pixel centres, for the transports of
 //! [`Transport`](manylights_scene::Transport): direct light of point-like lights is summed exactly;
 //! emissive triangles and all bounces are sampled.
+#![warn(clippy::print_stderr, clippy::print_stdout)]
 
 mod cache;
 mod error;

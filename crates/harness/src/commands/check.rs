@@ -10,7 +10,7 @@ use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
 use crate::measurement::lines;
 use crate::measurement::session::Session;
-use crate::output::{self, print_json};
+use crate::output::{self, print_json, say};
 use crate::question::experiment::{self, Experiment, Profile};
 use clap::Args;
 use std::path::PathBuf;
@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let path = directory.join("cells.jsonl");
     let lines::Contents { lines: baseline, problems, notes } = lines::read(&path)?;
     let baseline: Vec<Cell> = baseline.into_iter().map(|line| line.cell).collect();
-    notes.iter().for_each(output::say);
+    notes.iter().for_each(say);
     if let Some(problem) = problems.first().filter(|_| !arguments.bless) {
         return Err(Failure::input(format!("{problem}: restore it, or bless with --bless")));
     }
@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     if arguments.bless {
         let lines: String = cells.iter().map(lines::line).collect();
         output::write(&path, lines.as_bytes())?;
-        eprintln!("{}: {} cells are the new baseline", path.display(), cells.len());
+        say(format_args!("{}: {} cells are the new baseline", path.display(), cells.len()));
         return Ok(());
     }
     let moved = regression::compare(&baseline, &cells);
@@ -67,17 +67,17 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         !cells.iter().find(alike).is_some_and(same)
     });
     if let Some(cell) = foreign {
-        eprintln!(
+        say(format_args!(
             "pictures: the baseline is of {}, another processor or driver: only counts and errors \
              are compared",
             cell.provenance.cpu
-        );
+        ));
     }
     if arguments.json {
         print_json(&serde_json::to_value(&moved).expect("plain data"))?;
     }
     if moved.is_empty() {
-        eprintln!("nothing moved: {} cells", cells.len());
+        say(format_args!("nothing moved: {} cells", cells.len()));
         return Ok(());
     }
     print_table(&moved);
@@ -115,7 +115,7 @@ fn print_table(moved: &[Moved]) {
     let widths: Vec<usize> = (0..5).map(|column| width(column).unwrap_or(0)).collect();
     for row in &rows {
         let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}"));
-        eprintln!("{}", cells.collect::<Vec<_>>().join("  ").trim_end());
+        say(cells.collect::<Vec<_>>().join("  ").trim_end());
     }
 }
 
@@ -123,7 +123,7 @@ fn print_table(moved: &[Moved]) {
 fn report_times(before: &[Cell], now: &[Cell]) {
     let same = before.iter().zip(now).all(|(a, b)| a.provenance.machine == b.provenance.machine);
     if !same {
-        eprintln!("times: the baseline is another machine's, so they are not compared");
+        say("times: the baseline is another machine's, so they are not compared");
         return;
     }
     let seconds = |cell: &Cell| match &cell.outcome {
@@ -139,8 +139,8 @@ fn report_times(before: &[Cell], now: &[Cell]) {
         Some(seconds(now.iter().find(alike)?)? / seconds(old)?)
     });
     if let Some(ratio) = median(pairs) {
-        eprintln!(
+        say(format_args!(
             "times: {ratio:.2} times the baseline's (median; for information, decides nothing)"
-        );
+        ));
     }
 }

@@ -2,7 +2,16 @@
 
 use clap_complete::Shell;
 
+use crate::error::Failure;
+use crate::output;
+
 /// Prints the completions of a shell.
-pub(crate) fn run(shell: Shell, command: &mut clap::Command) {
-    clap_complete::generate(shell, command, "manylights", &mut std::io::stdout());
+///
+/// # Errors
+/// One line where standard output cannot be written.
+pub(crate) fn run(shell: Shell, command: &mut clap::Command) -> Result<(), Failure> {
+    // The generator panics where it cannot write.
+    let mut script = Vec::new();
+    clap_complete::generate(shell, command, "manylights", &mut script);
+    output::print(&script)
 }

@@ -56,7 +56,11 @@ fn latest(cells: &[Cell]) -> Vec<&Cell> {
     let size = |cell: &Cell| (cell.inputs.resolution, cell.inputs.references.clone());
     let last = cells.last().map(size);
     let alike = cells.iter().filter(|cell| Some(size(cell)) == last);
-    alike.map(|cell| (cell.inputs.identity(), cell)).collect::<BTreeMap<_, _>>().into_values().collect()
+    alike
+        .map(|cell| (cell.inputs.identity(), cell))
+        .collect::<BTreeMap<_, _>>()
+        .into_values()
+        .collect()
 }
 
 /// Quartiles by benchmark (scene and variant) and measure.

@@ -7,7 +7,7 @@ use manylights_scene::SceneKind;
 use serde_json::{Value, json};
 
 use crate::error::Failure;
-use crate::output::print_json;
+use crate::output::{print_json, say};
 use crate::question::experiment;
 use crate::registry::METHODS;
 use clap::Args;
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &ListArguments) -> Result<(), Failure> {
         return print_json(&Value::Array(entries.into_iter().map(|entry| entry.json).collect()));
     }
     for entry in entries {
-        eprintln!("{}", entry.text);
+        say(entry.text);
     }
     Ok(())
 }

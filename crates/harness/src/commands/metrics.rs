@@ -4,7 +4,7 @@ use manylights_metrics::{METRICS, RadianceImage, compare_display, compare_linear
 use serde_json::json;
 
 use crate::error::Failure;
-use crate::output::print_json;
+use crate::output::{print_json, say};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -36,13 +36,13 @@ pub(crate) fn run(arguments: &MetricsArguments) -> Result<(), Failure> {
         let report = json!({ "linear": linear, "display": display, "exposure": exposure });
         return print_json(&report);
     }
-    eprintln!("{:<8} {:>12} {:>12}  formula", "metric", "linear", "display");
+    say(format_args!("{:<8} {:>12} {:>12}  formula", "metric", "linear", "display"));
     for metric in METRICS {
         let [linear, display] = [&linear, &display].map(|errors| (metric.value)(errors));
-        eprintln!("{:<8} {linear:>12.6} {display:>12.6}  {}", metric.id, metric.formula);
+        say(format_args!("{:<8} {linear:>12.6} {display:>12.6}  {}", metric.id, metric.formula));
     }
-    eprintln!(
+    say(format_args!(
         "linear: radiance in W m^-2 sr^-1; display: sRGB values in [0, 1] at exposure {exposure}"
-    );
+    ));
     Ok(())
 }

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::commands::run;
 use crate::error::Failure;
-use crate::output::print_json;
+use crate::output::{print_json, say};
 use crate::question::experiment;
 use crate::question::experiment::Profile;
 use crate::question::jobs;
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<(), Failure> {
     let cells = experiment.scale.seeds.len() * experiment.scale.repetitions as usize;
     if !arguments.json {
         for job in &jobs {
-            eprintln!("{} {} ({cells} runs)", &job.key[..16], job.label);
+            say(format_args!("{} {} ({cells} runs)", &job.key[..16], job.label));
         }
         return Ok(());
     }

@@ -7,7 +7,7 @@ use crate::error::Failure;
 use crate::measurement::measure::{self, Measured};
 use crate::measurement::provenance::Provenance;
 use crate::measurement::stage::{self, Stage};
-use crate::output;
+use crate::output::{self, say};
 use crate::progress::Progress;
 use crate::question::experiment::has_last_segment;
 use crate::question::settings;
@@ -125,14 +125,14 @@ fn write(
 fn report(measured: &Measured, exr: &Path, png: &Path) {
     let counters: Vec<_> =
         measured.counters.iter().map(|(name, n)| format!("{name} {n}")).collect();
-    eprintln!(
+    say(format_args!(
         "{} and {}: prepared in {:.3} s, rendered in {:.3} s; {}",
         exr.display(),
         png.display(),
         measured.prepare_seconds,
         measured.step_seconds,
         counters.join(", ")
-    );
+    ));
 }
 
 fn check_finite(measured: &Measured, exr: &Path) -> Result<(), Failure> {

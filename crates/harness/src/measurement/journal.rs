@@ -106,7 +106,8 @@ impl Journal {
             self.order.drain(..).partition(|key| superseded(&self.lines[key].cell));
         self.order = kept;
         if !retired.is_empty() || self.written > self.order.len() {
-            let lines = self.order.iter().map(|key| self.lines[key].text.as_str()).collect::<String>();
+            let lines =
+                self.order.iter().map(|key| self.lines[key].text.as_str()).collect::<String>();
             output::write(&self.path, lines.as_bytes())?;
             self.written = self.order.len();
             // The old handle is that of the file that was replaced.

@@ -10,6 +10,7 @@ use manylights_scene::{Camera, Scene};
 use crate::error::Failure;
 use crate::measurement::cell::Comparison;
 use crate::measurement::inputs::Inputs;
+use crate::output::say;
 use crate::progress::Progress;
 
 /// A converged picture, as far as its samples go.
@@ -47,7 +48,7 @@ impl SceneReference {
         .map_err(|error| at_scene(scene, error))?;
         drop(progress);
         for note in &reference.notes {
-            eprintln!("{note}");
+            say(note);
         }
         let [a, b] = &reference.halves;
         // Halves of n/2 samples differ by √2 times their own noise, which is √2 times that of their

@@ -8,6 +8,7 @@ use manylights_scene::Transport;
 use manylights_scene::{Camera, Scene};
 
 use crate::error::Failure;
+use crate::output::say;
 
 /// Opens the adapter where one of `methods` needs it.
 ///
@@ -28,7 +29,7 @@ pub(crate) fn open_gpu<'m>(
 pub(crate) fn load(what: &str, assets: Option<&Path>) -> Result<Scene, Failure> {
     let scene = manylights_scene::load(what, assets).map_err(Failure::input)?;
     for note in &scene.notes {
-        eprintln!("{}: {note}", scene.name);
+        say(format_args!("{}: {note}", scene.name));
     }
     Ok(scene)
 }

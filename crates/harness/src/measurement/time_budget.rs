@@ -33,7 +33,8 @@ impl SceneRun<'_, '_> {
         let alike = |cell: &&Cell| {
             let Inputs { seed, repetition, .. } = cell.inputs;
             cell.provenance.same_machine(provenance)
-                && Inputs { seed, repetition, ..inputs.clone() }.identity() == cell.inputs.identity()
+                && Inputs { seed, repetition, ..inputs.clone() }.identity()
+                    == cell.inputs.identity()
         };
         self.amounts[variant] =
             self.session.journal.cells().rev().filter(alike).find_map(|cell| match &cell.outcome {

@@ -6,7 +6,7 @@ use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::scene_cells::SceneCells;
-use crate::output;
+use crate::output::{self, say};
 use crate::question::experiment::Experiment;
 use crate::show::curves::Figure;
 use crate::show::report::Report;
@@ -44,7 +44,7 @@ pub(crate) fn write(
     for (name, bytes) in files {
         let path = out.join(name);
         output::write(&path, &bytes)?;
-        eprintln!("{}", path.display());
+        say(path.display());
     }
     Report { experiment, cells, answers: &answers, machine, command }.write(out)?;
     Ok(answers)

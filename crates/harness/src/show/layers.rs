@@ -19,6 +19,7 @@ use manylights_scene::Transport;
 use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
 use crate::measurement::scene_cells::{SceneCells, image_path};
+use crate::output::say;
 use crate::progress::Progress;
 use crate::question::experiment::{Experiment, REFERENCE_SEED};
 
@@ -107,7 +108,7 @@ fn render_direct(
     })
     .map_err(|error| at_scene(&error))?;
     for note in &reference.notes {
-        eprintln!("{note}");
+        say(note);
     }
     Ok(reference.image)
 }

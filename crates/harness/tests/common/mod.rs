@@ -11,7 +11,7 @@ pub(crate) fn manylights(arguments: &[&str]) -> Output {
     command(arguments).output().expect("the program starts")
 }
 
-fn command(arguments: &[&str]) -> Command {
+pub(crate) fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_manylights"));
     command
         .args(arguments)

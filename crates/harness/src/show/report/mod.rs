@@ -18,7 +18,7 @@ use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::scene_cells::SceneCells;
-use crate::output;
+use crate::output::{self, say};
 use crate::question::experiment::Experiment;
 use crate::show::curves::Figure;
 use crate::show::table;
@@ -63,7 +63,7 @@ impl Report<'_> {
     pub(crate) fn write(&self, out: &Path) -> Result<(), Failure> {
         let path = out.join("report.html");
         output::write(&path, self.html(out)?.as_bytes())?;
-        eprintln!("{}", path.display());
+        say(path.display());
         Ok(())
     }
 
