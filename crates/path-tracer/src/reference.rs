@@ -20,7 +20,7 @@ pub struct Reference {
     pub halves: [RadianceImage; 2],
     /// Estimated variance of `image`, for each pixel and channel.
     pub variance: RadianceImage,
-    /// Samples a pixel in `image`; more than was asked for where the cache held more.
+    /// Samples a pixel in `image`: those asked for, rounded up ([`Settings::whole_samples`]).
     pub samples: u32,
     /// RMSE of `image` over pixels and channels that noise alone lets expect.
     pub noise_floor: f64,
@@ -32,9 +32,10 @@ pub struct Reference {
 
 /// Renders a reference, or goes on with the one in the folder `cache`.
 ///
-/// The cache is found by content (scene, camera, transport, resolution, seed), not by the number of
-/// samples: asking for more goes on from where the last call stopped and gives what one call would
-/// have given. It is stored after every slice. `observe` is told the samples a pixel after each.
+/// The cache is found by content (scene, camera, transport, resolution, seed) and by the number of
+/// samples. Asking for more goes on from where an earlier call stopped; whatever the cache holds, the
+/// same settings give the same picture. It is stored after every slice. `observe` is told the samples a
+/// pixel after each.
 ///
 /// # Errors
 /// Settings without a picture, a radiance that is not finite, a cache that cannot be written.
@@ -45,21 +46,23 @@ pub fn render(
     cache: Option<&Path>,
     observe: &mut dyn FnMut(Progress),
 ) -> Result<Reference, Error> {
-    let Settings { transport, resolution, seed, samples } = *settings;
+    let Settings { transport, resolution, seed, .. } = *settings;
     let mut picture = Picture::new(scene, camera, transport, resolution, seed, SLICE)?;
     let file = cache.map(|folder| CacheFile::new(folder, &content_digest(scene, camera), settings));
     let mut notes = Vec::new();
     if let Some(file) = &file {
-        match file.load(picture.sums().len()) {
+        let smaller = if file.path().exists() { None } else { file.smaller() };
+        let source = smaller.as_ref().unwrap_or(file);
+        match source.load(picture.sums().len()) {
             Cached::Nothing => {}
             Cached::Sums(sums, slices) => picture.restore(sums, slices),
             Cached::Damaged(reason) => notes.push(format!(
                 "cached reference {} is damaged ({reason}): rendered again",
-                file.path().display()
+                source.path().display()
             )),
         }
     }
-    let slices = samples.div_ceil(SLICE).max(2);
+    let slices = settings.slices();
     while picture.slices() < slices {
         picture.slice()?;
         if let Some(file) = &file {

@@ -50,11 +50,36 @@ fn goes_on_where_it_stopped() {
     let (continued, slices) = rendered(&settings(8 * SLICE), Some(folder.path()));
     assert_eq!(slices, 5);
     assert_same(&once, &continued);
-    // Nothing is left to do; fewer samples than there are is no reason to throw any away.
-    let (again, slices) = rendered(&settings(2 * SLICE), Some(folder.path()));
-    assert_eq!(slices, 0);
+    let (again, slices) = rendered(&settings(8 * SLICE), Some(folder.path()));
+    assert_eq!(slices, 0, "nothing is left to do");
     assert_same(&once, &again);
-    only_file(folder.path());
+}
+
+/// Numbers must not depend on what other runs left in the cache.
+#[test]
+fn fewer_samples_than_are_kept_give_the_picture_of_fewer() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (few, _) = rendered(&settings(2 * SLICE), None);
+    rendered(&settings(8 * SLICE), Some(folder.path()));
+    let (after_many, slices) = rendered(&settings(2 * SLICE), Some(folder.path()));
+    assert_eq!(slices, 2);
+    assert_same(&few, &after_many);
+    // Both are kept.
+    assert_eq!(rendered(&settings(8 * SLICE), Some(folder.path())).1, 0);
+    assert_eq!(rendered(&settings(2 * SLICE), Some(folder.path())).1, 0);
+}
+
+#[test]
+fn a_file_with_more_samples_than_its_name_says_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    rendered(&settings(8 * SLICE), Some(folder.path()));
+    let many = fs::read(only_file(folder.path())).expect("the file");
+    fs::remove_file(only_file(folder.path())).expect("removable");
+    let (few, _) = rendered(&settings(2 * SLICE), Some(folder.path()));
+    fs::write(only_file(folder.path()), many).expect("writable");
+    let (again, _) = rendered(&settings(2 * SLICE), Some(folder.path()));
+    assert!(again.notes[0].contains("more samples than its name says"), "{:?}", again.notes);
+    assert_same(&few, &again);
 }
 
 #[test]

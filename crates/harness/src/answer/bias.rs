@@ -12,7 +12,8 @@ use manylights_metrics::RadianceImage;
 
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
-use crate::measurement::scene_cells::{SceneCells, image_path};
+use crate::measurement::pictures::image_path;
+use crate::measurement::scene_cells::SceneCells;
 use crate::question::plan::Turn;
 
 /// The two parts of an error, as roots of means over all components of all pixels, of sRGB values.

@@ -117,10 +117,16 @@ fn compare_numbers(
     moved: &mut Vec<Moved>,
 ) {
     for (quantity, &a) in before {
-        let b = now.get(quantity).copied().unwrap_or(f64::NAN);
+        let Some(&b) = now.get(quantity) else {
+            moved.push(row(name, quantity, &format!("{a:.6}"), "absent", "it is not measured"));
+            continue;
+        };
         let within = (b - a).abs() <= ROUNDING * a.abs();
         if !within {
-            let why = format!("by {:+.2} %, where rounding explains 0.1 %", 100.0 * (b / a - 1.0));
+            let why = match a {
+                0.0 => "it was nothing".to_owned(),
+                _ => format!("by {:+.2} %, where rounding explains 0.1 %", 100.0 * (b / a - 1.0)),
+            };
             let quantity = format!("{quantity}, seed {seed}");
             moved.push(row(name, &quantity, &format!("{a:.6}"), &format!("{b:.6}"), &why));
         }

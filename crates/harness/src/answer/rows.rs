@@ -1,6 +1,6 @@
 //! Cells condensed to one row for each variant on each scene.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use manylights_metrics::{Errors, METRICS};
@@ -20,6 +20,8 @@ pub(crate) struct SceneAnswer {
     pub(crate) scene: String,
     /// One for each variant and machine, in the order of the experiment.
     pub(crate) rows: Vec<Row>,
+    /// Samples a pixel of the references that it is compared with.
+    pub(crate) samples: BTreeMap<String, u32>,
     /// Index of the variant that ratios refer to.
     baseline: usize,
 }
@@ -81,7 +83,7 @@ impl Row {
 }
 
 impl SceneAnswer {
-    /// Condenses the cells of a scene; the pictures are in `out`.
+    /// Condenses the cells of a scene and its pictures, which are in `out`.
     ///
     /// # Errors
     /// One line where a picture cannot be read.
@@ -89,6 +91,15 @@ impl SceneAnswer {
         experiment: &Experiment,
         scene: &SceneCells,
         out: &Path,
+    ) -> Result<Self, Failure> {
+        Self::with(experiment, scene, |cells| bias::of_cells(cells, scene, out))
+    }
+
+    /// The same with what `bias` says of the cells of a row that has pictures.
+    fn with(
+        experiment: &Experiment,
+        scene: &SceneCells,
+        bias: impl Fn(&[&(Turn, Cell)]) -> Result<BTreeMap<String, Bias>, Failure>,
     ) -> Result<Self, Failure> {
         let mut groups: BTreeMap<(usize, &str), Vec<&(Turn, Cell)>> = BTreeMap::new();
         for cell in &scene.cells {
@@ -98,12 +109,24 @@ impl SceneAnswer {
         let row = |((variant, machine), cells): ((usize, &str), Vec<&(Turn, Cell)>)| {
             let mut result = result(&cells);
             if let RowResult::Done(medians) = &mut result {
-                medians.bias = bias::of_cells(&cells, scene, out)?;
+                medians.bias = bias(&cells)?;
             }
             Ok::<_, Failure>(Row { variant, machine: machine.to_owned(), result })
         };
         let rows = groups.into_iter().map(row).collect::<Result<_, _>>()?;
-        Ok(Self { scene: scene.scene.clone(), rows, baseline: experiment.baseline })
+        let samples = scene.cells.first().map(|(_, cell)| cell.inputs.references.clone());
+        Ok(Self {
+            scene: scene.scene.clone(),
+            rows,
+            samples: samples.unwrap_or_default(),
+            baseline: experiment.baseline,
+        })
+    }
+
+    /// Of cells without their pictures, which are not committed: nothing of bias is known.
+    #[cfg(test)]
+    pub(crate) fn of_cells(experiment: &Experiment, scene: &SceneCells) -> Self {
+        Self::with(experiment, scene, |_| Ok(BTreeMap::new())).expect("no picture is read")
     }
 
     /// The row of the baseline that the same machine ran.
@@ -113,10 +136,13 @@ impl SceneAnswer {
     }
 
     /// Whether the RMSE of a row differs from the baseline's by more than chance, seed by seed;
-    /// `None` where there are too few seeds to tell.
+    /// `None` where there are too few seeds to tell, and where no seed differs at all.
     pub(crate) fn differs(&self, row: &Row, reference: &str) -> Option<bool> {
         let seeds = |row: &Row| row.medians()?.seed_rmse.get(reference).cloned();
         let pairs: Vec<_> = seeds(row)?.into_iter().zip(seeds(self.baseline(row)?)?).collect();
+        if pairs.iter().all(|(row, baseline)| row == baseline) {
+            return None;
+        }
         paired_difference(&pairs).map(|(mean, half)| mean.abs() > half)
     }
 
@@ -187,8 +213,9 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
         return RowResult::Declined(declined.unwrap_or_else(|| "no run".to_owned()));
     };
     // Repetitions of a seed have the same picture: they are not independent errors.
-    let pictures: Vec<&Done> =
-        done.iter().filter(|(turn, ..)| turn.repetition == 0).map(|(.., done)| *done).collect();
+    let mut seeds = BTreeSet::new();
+    let firsts = done.iter().filter(|(turn, ..)| seeds.insert(turn.seed));
+    let pictures: Vec<&Done> = firsts.map(|(.., done)| *done).collect();
     let rmse = |reference: &String| {
         let seeds =
             pictures.iter().filter_map(|done| Some(done.errors.get(reference)?.display.rmse));
@@ -302,7 +329,8 @@ mod tests {
     fn rows_closer_than_the_floor_share_a_rank() {
         let declined = row_of(3, RowResult::Declined("no".into()));
         let rows = vec![row(0, 0.5), row(1, 0.105), row(2, 0.1), declined, row(4, 0.2)];
-        let ranks = SceneAnswer { scene: "s".into(), rows, baseline: 0 }.ranks("traced");
+        let ranks = SceneAnswer { scene: "s".into(), rows, samples: BTreeMap::new(), baseline: 0 }
+            .ranks("traced");
         let rank = |place, shared| Some(Rank { place, shared });
         assert_eq!(ranks, [rank(4, false), rank(1, true), rank(1, true), None, rank(3, false)]);
     }

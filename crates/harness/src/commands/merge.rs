@@ -6,7 +6,7 @@ use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
 use crate::measurement::journal::Journal;
 use crate::measurement::lines;
-use crate::measurement::scene_cells::image_path;
+use crate::measurement::pictures::image_path;
 use crate::output::{self, say};
 use crate::show::answer_files;
 use crate::show::report::{self, Loaded};
@@ -50,9 +50,9 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
             }
         }
     }
-    let Loaded { experiment, scenes, machine } = report::load(out)?;
+    let Loaded { experiment, scenes } = report::load(out)?;
     let command = report::command(&out.join("experiment.toml"), &experiment, None);
-    answer_files::write(&experiment, &scenes, &machine, command, out)?;
+    answer_files::write(&experiment, &scenes, command, out)?;
     Ok(())
 }
 

@@ -20,8 +20,8 @@ pub(crate) struct ReportArguments {
 /// One line where the folder does not hold the results of an experiment.
 pub(crate) fn run(arguments: &ReportArguments) -> Result<(), Failure> {
     let directory = &arguments.directory;
-    let Loaded { experiment, scenes, machine } = report::load(directory)?;
+    let Loaded { experiment, scenes } = report::load(directory)?;
     let command = report::command(&directory.join("experiment.toml"), &experiment, None);
-    answer_files::write(&experiment, &scenes, &machine, command, directory)?;
+    answer_files::write(&experiment, &scenes, command, directory)?;
     Ok(())
 }

@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let scenes = load(&experiment, arguments.machine.assets.as_deref())?;
     let mut session =
         Session::open(&experiment, out, &cache, arguments.machine.adapter.as_deref())?;
-    keep_experiment(file, out)?;
+    keep_experiment(file, out, session.journal.cells().next().is_none())?;
     if let Some(key) = &arguments.cell {
         return job(&mut session, &scenes, key);
     }
@@ -67,21 +67,27 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         all_cells.push(cells);
     }
     let command = report::command(file, &experiment, arguments.out.as_deref());
-    let answers = answer_files::write(&experiment, &all_cells, &session.on_gpu, command, out)?;
+    let answers = answer_files::write(&experiment, &all_cells, command, out)?;
     for ((scene, cells), answer) in scenes.iter().zip(&all_cells).zip(&answers) {
         layers::write(&experiment, scene, cells, answer, [&cache, out])?;
     }
     check(&answers)
 }
 
-/// Puts the question beside the answer, for `manylights report`.
-fn keep_experiment(file: &Path, out: &Path) -> Result<(), Failure> {
+/// Puts the question beside the answer, for `manylights report`. The answer to another one is not
+/// replaced.
+fn keep_experiment(file: &Path, out: &Path, empty: bool) -> Result<(), Failure> {
     let kept = out.join("experiment.toml");
     let text = std::fs::read(file).map_err(Failure::input)?;
-    if std::fs::read(&kept).is_ok_and(|old| old == text) {
-        return Ok(());
+    match std::fs::read(&kept) {
+        Ok(old) if old == text => Ok(()),
+        Ok(_) if !empty => Err(Failure::input(format!(
+            "{} differs from {}, which has results: choose another --out",
+            file.display(),
+            kept.display()
+        ))),
+        _ => output::write(&kept, &text),
     }
-    output::write(&kept, &text)
 }
 
 /// Runs the cells of one line of `plan`.
@@ -102,7 +108,8 @@ fn job(session: &mut Session<'_>, scenes: &[Scene], key: &str) -> Result<(), Fai
 /// The scenes of an experiment, at its exposures.
 ///
 /// # Errors
-/// One line where a scene cannot be loaded or is listed twice.
+/// One line where a scene cannot be loaded or is listed twice, and where the experiment says something of
+/// one that is not listed.
 pub(crate) fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec<Scene>, Failure> {
     let mut names = BTreeSet::new();
     let mut scenes = Vec::with_capacity(experiment.scenes.len());
@@ -116,6 +123,9 @@ pub(crate) fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec
         }
         scenes.push(scene);
     }
+    experiment
+        .check_scenes(scenes.iter().map(|scene| scene.name.as_str()))
+        .map_err(|reason| Failure::input(reason))?;
     Ok(scenes)
 }
 

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use manylights_scene::Scene;
 use serde::{Deserialize, Serialize};
 
 use crate::measurement::provenance::{Provenance, sha256};
@@ -42,16 +41,17 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
-    /// Of a variant on a scene of this content, with the references that were asked for.
+    /// Of a variant on a scene of this name, content and exposure.
     pub(crate) fn new(
         experiment: &Experiment,
-        scene: &Scene,
-        content: &str,
         variant: &Variant,
+        scene: &str,
+        content: &str,
+        exposure: f32,
     ) -> Self {
         let samples = experiment.scale.reference_samples;
         Self {
-            scene: scene.name.clone(),
+            scene: scene.to_owned(),
             scene_content: content.to_owned(),
             method: variant.method.id().to_owned(),
             parameters: variant.given(),
@@ -61,7 +61,7 @@ impl Inputs {
             transport: experiment.transport.to_string(),
             asked_visibility: variant.unusual_visibility().map(|visibility| visibility.to_string()),
             resolution: experiment.scale.resolution,
-            exposure: scene.exposure,
+            exposure,
             references: experiment.references.iter().map(|v| (v.to_string(), samples)).collect(),
         }
     }
@@ -78,6 +78,11 @@ impl Inputs {
             });
         }
         serde_json::to_string(&essential).expect("inputs are plain data")
+    }
+
+    /// What is asked of a scene, whatever state it is in: of two answers of one machine, the later counts.
+    pub(crate) fn turn_identity(&self) -> String {
+        Self { scene_content: String::new(), exposure: 0.0, ..self.clone() }.identity()
     }
 
     /// Names what is asked, whoever answers: the same for all seeds and repetitions, which one

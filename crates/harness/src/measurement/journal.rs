@@ -89,8 +89,9 @@ impl Journal {
         }
     }
 
-    /// Drops the cells that another version made of the same inputs on the same machine as `current`,
-    /// and the earlier lines of cells that ran again. Gives the keys of the former.
+    /// Drops the cells of the machine that made `current` which answer the same for another version of a
+    /// method, state of the scene or driver: no run uses them again, and a report knows one answer. Drops
+    /// the earlier lines of cells that ran again, too. Gives the keys of the former.
     ///
     /// # Errors
     /// One line where the file cannot be written.
@@ -98,8 +99,8 @@ impl Journal {
         let superseded = |cell: &Cell| {
             current.iter().any(|other| {
                 other.key != cell.key
-                    && other.inputs.identity() == cell.inputs.identity()
-                    && other.provenance.same_machine(&cell.provenance)
+                    && other.provenance.machine == cell.provenance.machine
+                    && other.inputs.turn_identity() == cell.inputs.turn_identity()
             })
         };
         let (retired, kept): (Vec<String>, Vec<String>) =

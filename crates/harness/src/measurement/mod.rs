@@ -6,6 +6,7 @@ pub(crate) mod inputs;
 pub(crate) mod journal;
 pub(crate) mod lines;
 pub(crate) mod measure;
+pub(crate) mod pictures;
 pub(crate) mod provenance;
 pub(crate) mod reference;
 pub(crate) mod scene_cells;

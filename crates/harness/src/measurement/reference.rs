@@ -8,10 +8,14 @@ use manylights_scene::Visibility;
 use manylights_scene::{Camera, Scene};
 
 use crate::error::Failure;
-use crate::measurement::cell::Comparison;
-use crate::measurement::inputs::Inputs;
+use crate::measurement::cell::{Cell, Comparison, Outcome};
+use crate::measurement::pictures::image_path;
 use crate::output::say;
 use crate::progress::Progress;
+use crate::question::plan::Turn;
+
+/// The same two pictures have the same error but for how another processor rounds sums.
+const SAME: f64 = 1e-9;
 
 /// A converged picture, as far as its samples go.
 pub(crate) struct SceneReference {
@@ -19,7 +23,7 @@ pub(crate) struct SceneReference {
     pub(crate) visibility: Visibility,
     /// The mean of all samples.
     pub(crate) image: RadianceImage,
-    /// Samples a pixel: at least what was asked for.
+    /// Samples a pixel.
     pub(crate) samples: u32,
     /// RMSE of radiance that noise alone causes.
     linear_floor: f64,
@@ -76,25 +80,43 @@ impl SceneReference {
         self.image.write_exr(&path, &[samples]).map_err(Failure::input)
     }
 
-    /// What [`Self::write`] kept, with the noise that a cell of these inputs was told of.
+    /// What [`Self::write`] kept, for the cells of a scene that were compared with it.
     ///
     /// # Errors
-    /// One line where the picture cannot be read.
+    /// One line where the picture cannot be read, or is not that one.
     pub(crate) fn read(
         visibility: Visibility,
-        inputs: &Inputs,
-        comparison: Option<&Comparison>,
+        cells: &[(Turn, Cell)],
         out: &Path,
     ) -> Result<Self, Failure> {
+        let name = visibility.to_string();
+        let (_, Cell { inputs, .. }) = cells.first().expect("a scene is there for a cell");
+        let compared = cells.iter().find_map(|(turn, cell)| match &cell.outcome {
+            Outcome::Done(done) if turn.repetition == 0 => Some((cell, done.errors.get(&name)?)),
+            _ => None,
+        });
         let path = path(out, &inputs.scene, visibility);
-        Ok(Self {
+        let floor = |floor: fn(&Comparison) -> f64| compared.map_or(0.0, |(_, to)| floor(to));
+        let reference = Self {
             visibility,
             image: RadianceImage::read_exr(&path).map_err(Failure::input)?,
-            samples: inputs.references.get(&visibility.to_string()).copied().unwrap_or(0),
-            linear_floor: comparison.map_or(0.0, |comparison| comparison.linear_floor),
-            display_floor: comparison.map_or(0.0, |comparison| comparison.display_floor),
+            samples: inputs.references.get(&name).copied().unwrap_or(0),
+            linear_floor: floor(|comparison| comparison.linear_floor),
+            display_floor: floor(|comparison| comparison.display_floor),
             exposure: inputs.exposure,
-        })
+        };
+        if let Some((cell, comparison)) = compared {
+            let picture = image_path(out, &inputs.scene, &cell.key).with_extension("exr");
+            let picture = RadianceImage::read_exr(&picture).map_err(Failure::input)?;
+            let again = reference.compare(&picture).map_err(Failure::input)?.display.rmse;
+            if (again - comparison.display.rmse).abs() > SAME * comparison.display.rmse {
+                return Err(Failure::input(format!(
+                    "{}: not the reference that the cells were compared with: run them again",
+                    path.display()
+                )));
+            }
+        }
+        Ok(reference)
     }
 
     /// Errors of a picture against this reference.

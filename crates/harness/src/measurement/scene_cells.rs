@@ -1,8 +1,7 @@
-//! The cells of a scene, and where their pictures are.
-
-use std::path::{Path, PathBuf};
+//! The cells of a scene.
 
 use crate::measurement::cell::Cell;
+use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
 use crate::question::plan::Turn;
 
@@ -18,7 +17,12 @@ pub(crate) struct SceneCells {
     pub(crate) cells: Vec<(Turn, Cell)>,
 }
 
-/// The picture of a cell, without extension. The name is the key's: settings may be many.
-pub(crate) fn image_path(out: &Path, scene: &str, key: &str) -> PathBuf {
-    out.join("cells").join(format!("{scene}-{}", &key[..16]))
+impl SceneCells {
+    /// Where the cells of some scenes were made: that of the last one on an adapter, where there is one.
+    /// Of no cells there is none.
+    pub(crate) fn provenance(scenes: &[Self]) -> Option<&Provenance> {
+        let cells = || scenes.iter().flat_map(|scene| &scene.cells).map(|(_, cell)| cell).rev();
+        let on_adapter = cells().find(|cell| cell.provenance.adapter.is_some());
+        on_adapter.or_else(|| cells().next()).map(|cell| &cell.provenance)
+    }
 }

@@ -12,9 +12,10 @@ use crate::error::Failure;
 use crate::measurement::cell::{Cell, Checkpoint, Done, Outcome, image_sha256};
 use crate::measurement::inputs::Inputs;
 use crate::measurement::measure::{self, Look, Measured};
+use crate::measurement::pictures::image_path;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
-use crate::measurement::scene_cells::{SceneCells, image_path};
+use crate::measurement::scene_cells::SceneCells;
 use crate::measurement::session::Session;
 use crate::measurement::stage::Stage;
 use crate::measurement::versions;
@@ -31,7 +32,7 @@ pub(crate) struct SceneRun<'s, 'a> {
     /// Hash of its content.
     pub(crate) content: String,
     /// What the pictures are compared with.
-    pub(crate) references: &'s [SceneReference],
+    pub(crate) references: Vec<SceneReference>,
     /// Of each variant, the value of the cost parameter that its time budget was found to allow.
     pub(crate) amounts: Vec<Option<u64>>,
     /// The variants whose time budgets no amount could be found for, and why.
@@ -41,8 +42,8 @@ pub(crate) struct SceneRun<'s, 'a> {
 }
 
 impl Session<'_> {
-    /// Renders the references of a scene and those cells of some variants that are not in the
-    /// journal.
+    /// Renders those cells of some variants on a scene that are not in the journal and, where there are
+    /// any, the references.
     ///
     /// # Errors
     /// One line where the scene cannot be rendered or a file cannot be written. Cells that fail are
@@ -55,10 +56,6 @@ impl Session<'_> {
         let experiment = self.experiment;
         let gpu = self.gpu.clone();
         let stage = Stage::new(scene, None, experiment.scale.resolution, gpu.as_ref())?;
-        let references = self.references(scene, &stage)?;
-        for reference in &references {
-            reference.write(&scene.name, self.out)?;
-        }
         let scale = &experiment.scale;
         let turns = interleaved(variants, &scale.seeds, scale.repetitions);
         let content = manylights_scene::content_hash(scene, stage.camera);
@@ -67,13 +64,22 @@ impl Session<'_> {
             session: self,
             stage,
             content,
-            references: &references,
+            references: Vec::new(),
             amounts,
             refused: BTreeMap::new(),
             ran: false,
         };
+        run.references = match run.kept_references(&turns) {
+            Some(kept) => kept,
+            None => {
+                let references = run.session.references(scene, &run.stage)?;
+                references.iter().try_for_each(|it| it.write(&scene.name, run.session.out))?;
+                references
+            }
+        };
         let mut cells = run.turns(&turns)?;
         run.correct_times(&mut cells)?;
+        let references = run.references;
         Ok(SceneCells { scene: scene.name.clone(), exposure: scene.exposure, references, cells })
     }
 
@@ -129,15 +135,29 @@ impl SceneRun<'_, '_> {
         Ok(cells)
     }
 
-    fn inputs(&self, variant: &Variant, turn: Turn) -> Inputs {
-        let samples =
-            |reference: &SceneReference| (reference.visibility.to_string(), reference.samples);
-        Inputs {
-            references: self.references.iter().map(samples).collect(),
-            seed: turn.seed,
-            repetition: turn.repetition,
-            ..Inputs::new(self.session.experiment, self.stage.scene, &self.content, variant)
+    /// The references that an earlier run left beside its cells, where nothing is left to run: a finished
+    /// experiment renders nothing, whatever became of the cache.
+    fn kept_references(&mut self, turns: &[Turn]) -> Option<Vec<SceneReference>> {
+        let experiment = self.session.experiment;
+        let mut cells = Vec::with_capacity(turns.len());
+        for &turn in turns {
+            let variant = &experiment.variants[turn.variant];
+            let inputs = self.inputs(variant, turn);
+            let provenance = self.provenance(variant).clone();
+            self.recall_amount(turn.variant, &inputs, &provenance);
+            let key = inputs.key(&versions::of(variant.method), &provenance);
+            cells.push((turn, self.finished(&key, turn)?));
         }
+        let out = self.session.out;
+        let kept = |&visibility| SceneReference::read(visibility, &cells, out).ok();
+        experiment.references.iter().map(kept).collect()
+    }
+
+    fn inputs(&self, variant: &Variant, turn: Turn) -> Inputs {
+        let (experiment, scene) = (self.session.experiment, self.stage.scene);
+        let Turn { seed, repetition, .. } = turn;
+        let asked = Inputs::new(experiment, variant, &scene.name, &self.content, scene.exposure);
+        Inputs { seed, repetition, ..asked }
     }
 
     fn provenance(&self, variant: &Variant) -> &Provenance {

@@ -43,6 +43,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use manylights_path_tracer as path_tracer;
 use manylights_scene::{Transport, Visibility};
 use serde::Deserialize;
 
@@ -99,7 +100,7 @@ pub(crate) struct Experiment {
 pub(crate) struct Scale {
     /// Width, height in pixels.
     pub(crate) resolution: [u32; 2],
-    /// Samples a pixel of the references.
+    /// Samples a pixel of the references; once checked, those that they have: whole slices.
     pub(crate) reference_samples: u32,
     /// Timed runs of each cell.
     pub(crate) repetitions: u32,
@@ -188,11 +189,17 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
     };
     let scale = scale.ok_or_else(|| format!("no profile `{name}`: add [profiles.{name}]"))?;
     check_scale(name, &scale)?;
+    // What references have, so that tables say it.
+    let reference_samples = path_tracer::Settings::whole_samples(scale.reference_samples);
+    let scale = Scale { reference_samples, ..scale };
     if file.scenes.is_empty() || file.methods.is_empty() || file.references.is_empty() {
         return Err("`scenes`, `methods` and `references` each need at least one entry".into());
     }
     let transport: Transport = file.transport.parse()?;
     let times = times(&scale.times)?;
+    distinct("times", &times)?;
+    distinct("errors", &file.errors)?;
+    distinct("columns", file.columns.as_deref().unwrap_or_default())?;
     let mut variants = Vec::new();
     for entry in &file.methods {
         for variant in entry.variants(&times)? {
@@ -243,6 +250,7 @@ fn check_scale(name: &str, scale: &Scale) -> Result<(), String> {
     if scale.repetitions == 0 || scale.seeds.is_empty() {
         return at("at least one repetition and one seed are needed");
     }
+    distinct("seeds", &scale.seeds).map_err(|reason| format!("profiles.{name}: {reason}"))?;
     if scale.reference_samples < 2 {
         return at("`reference_samples` must be at least 2: a reference is two halves");
     }
@@ -250,6 +258,33 @@ fn check_scale(name: &str, scale: &Scale) -> Result<(), String> {
         return at("a seed is that of the references: choose another");
     }
     Ok(())
+}
+
+/// What is listed twice would count twice: the same seed is no second sample.
+fn distinct<T: PartialEq + std::fmt::Debug>(list: &str, values: &[T]) -> Result<(), String> {
+    let twice = values.iter().enumerate().find(|(index, value)| values[..*index].contains(value));
+    twice.map_or(Ok(()), |(_, value)| Err(format!("{list}: `{value:?}` is listed twice")))
+}
+
+impl Experiment {
+    /// Refuses what is said of scenes that are not among those of these names.
+    ///
+    /// # Errors
+    /// One line with the nearest name.
+    pub(crate) fn check_scenes<'n>(
+        &self,
+        scenes: impl Iterator<Item = &'n str> + Clone,
+    ) -> Result<(), String> {
+        let exposures = self.exposures.keys().map(|name| ("exposures", name));
+        let crops = self.crops.iter().map(|crop| ("crops", &crop.scene));
+        let published = self.published.iter().map(|published| ("published", &published.scene));
+        for (place, name) in exposures.chain(crops).chain(published) {
+            if !scenes.clone().any(|scene| scene == name) {
+                return Err(format!("{place}: {}", names::unknown("scene", name, scenes)));
+            }
+        }
+        Ok(())
+    }
 }
 
 fn times(written: &[Time]) -> Result<Vec<Budget>, String> {
@@ -386,6 +421,14 @@ seeds = [1]
             ),
             ("question", "columns = [\"psrn\"]\nquestion", "psnr"),
             ("question", "errors = [0.0]\nquestion", "positive"),
+            ("question", "errors = [0.1, 0.2, 0.1]\nquestion", "errors: `0.1` is listed twice"),
+            ("question", "columns = [\"rmse\", \"rmse\"]\nquestion", "listed twice"),
+            ("seeds = [1]", "seeds = [2, 1, 2]", "profiles.quick: seeds: `2` is listed twice"),
+            (
+                "seeds = [1]",
+                "seeds = [1]\ntimes = [1, 1.0]",
+                "times: `Seconds(1.0)` is listed twice",
+            ),
         ] {
             let reason = refused(from, to);
             assert!(reason.contains(said) && reason.lines().count() == 1, "{reason} / {said}");

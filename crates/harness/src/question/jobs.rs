@@ -31,7 +31,7 @@ pub(crate) fn of_experiment(
         let camera = scene.camera(None).map_err(Failure::input)?;
         let content = manylights_scene::content_hash(scene, camera);
         jobs.extend(experiment.variants.iter().enumerate().map(|(number, variant)| Job {
-            key: Inputs::new(experiment, scene, &content, variant).question(),
+            key: Inputs::new(experiment, variant, &scene.name, &content, scene.exposure).question(),
             scene: index,
             variant: number,
             label: format!("{} {}", scene.name, variant.label()),

@@ -77,6 +77,9 @@ impl Entry {
         let variant = variants.iter().position(|variant| variant == wanted);
         let variant =
             variant.ok_or_else(|| at(format!("`{}` is not among the methods", wanted.label())))?;
+        if let Some((metric, value)) = self.values.iter().find(|(_, value)| !value.is_finite()) {
+            return Err(at(format!("`{metric}` = {value}: must be finite")));
+        }
         let number = |(metric, &value): (&String, &f64)| {
             let quantity = self.quantity(metric, references).map_err(at)?;
             let (source, scene) = (self.source.clone(), self.scene.clone());

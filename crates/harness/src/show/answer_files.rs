@@ -4,7 +4,6 @@ use std::path::Path;
 
 use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
-use crate::measurement::provenance::Provenance;
 use crate::measurement::scene_cells::SceneCells;
 use crate::output::{self, say};
 use crate::question::experiment::Experiment;
@@ -21,10 +20,10 @@ use crate::show::table;
 pub(crate) fn write(
     experiment: &Experiment,
     cells: &[SceneCells],
-    machine: &Provenance,
     command: String,
     out: &Path,
 ) -> Result<Vec<SceneAnswer>, Failure> {
+    let machine = SceneCells::provenance(cells).expect("an answer is there for its cells");
     let answers: Vec<SceneAnswer> = cells
         .iter()
         .map(|cells| SceneAnswer::new(experiment, cells, out))

@@ -16,14 +16,15 @@ use manylights_path_tracer as path_tracer;
 use manylights_scene::Scene;
 use manylights_scene::Transport;
 
-use crate::answer::rows::SceneAnswer;
+use crate::answer::rows::{Medians, SceneAnswer};
 use crate::error::Failure;
-use crate::measurement::scene_cells::{SceneCells, image_path};
+use crate::measurement::pictures::image_path;
+use crate::measurement::scene_cells::SceneCells;
 use crate::output::say;
 use crate::progress::Progress;
 use crate::question::experiment::{Experiment, REFERENCE_SEED};
 
-/// Writes the layers of all variants that have a picture. Direct light comes from the path tracer and
+/// Writes the layers of all variants that have a picture and none yet. Direct light comes from the path tracer and
 /// is kept in `cache`, as references are.
 ///
 /// # Errors
@@ -35,6 +36,13 @@ pub(crate) fn write(
     answer: &SceneAnswer,
     [cache, out]: [&Path; 2],
 ) -> Result<(), Failure> {
+    let path = |medians: &Medians| image_path(out, &cells.scene, &medians.key);
+    let pictured = answer.rows.iter().filter_map(|row| row.medians());
+    let missing: Vec<&Medians> =
+        pictured.filter(|medians| !path(medians).with_extension("layers.exr").exists()).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
     let direct = match experiment.transport {
         Transport::Direct => None,
         Transport::All | Transport::Indirect { .. } => {
@@ -42,8 +50,8 @@ pub(crate) fn write(
         }
     };
     let truth = &cells.references[0].image;
-    for medians in answer.rows.iter().filter_map(|row| row.medians()) {
-        let path = image_path(out, &cells.scene, &medians.key);
+    for medians in missing {
+        let path = path(medians);
         let image = RadianceImage::read_exr(&path.with_extension("exr")).map_err(Failure::input)?;
         let error = combined(&image, truth, |x, r| x - r);
         let layers = layers(experiment.transport, image, direct.as_ref(), error);

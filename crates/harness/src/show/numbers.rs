@@ -15,6 +15,12 @@ pub(crate) fn short(value: f64) -> String {
     format!("{rounded:.*}", digits.max(0) as usize)
 }
 
+/// A number as a multiple of another; nothing is one of zero.
+pub(crate) fn ratio(of: f64, base: f64) -> String {
+    let ratio = of / base;
+    if ratio.is_finite() { short(ratio) } else { "-".to_owned() }
+}
+
 /// Milliseconds of a time in seconds.
 pub(crate) fn milliseconds(seconds: f64) -> String {
     short(1e3 * seconds)
@@ -31,5 +37,6 @@ mod tests {
         assert_eq!([0.099_999, 0.1, 999.9].map(short), ["0.100", "0.100", "1000"]);
         assert_eq!(short(f64::INFINITY), "inf");
         assert_eq!(milliseconds(0.0125), "12.5");
+        assert_eq!([ratio(0.0, 0.0), ratio(1.0, 0.0), ratio(1.0, 2.0)], ["-", "-", "0.500"]);
     }
 }

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use clap::ValueEnum;
-use manylights_scene::Visibility;
 
 use crate::error::Failure;
-use crate::measurement::cell::{Cell, Outcome};
+use crate::measurement::cell::Cell;
+use crate::measurement::inputs::Inputs;
 use crate::measurement::lines;
-use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::SceneCells;
+use crate::output::say;
 use crate::question::experiment::{self, Experiment, Profile};
 use crate::question::plan::Turn;
 
@@ -21,8 +21,6 @@ pub(crate) struct Loaded {
     pub(crate) experiment: Experiment,
     /// Cells and references of each scene, in the order in which they ran.
     pub(crate) scenes: Vec<SceneCells>,
-    /// Where the cells were made: that of one on the adapter, where there is one.
-    pub(crate) machine: Provenance,
 }
 
 /// Reads `experiment.toml`, `cells.jsonl` and the pictures of `directory`.
@@ -42,25 +40,65 @@ pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
     let last = cells.last().ok_or_else(|| refuse("there are no cells in cells.jsonl"))?;
     let experiment = profile_of(last, &file)?
         .ok_or_else(|| refuse("the last cell is of another experiment or profile"))?;
+    let (mut scenes, foreign) = scenes(&experiment, &cells)
+        .map_err(|reason| Failure::input(format!("{}: {reason}", directory.display())))?;
+    if foreign > 0 {
+        let place = directory.display();
+        say(format_args!("{place}: {foreign} cells of other questions or profiles are left out"));
+    }
+    for scene in &mut scenes {
+        let read = |&visibility| SceneReference::read(visibility, &scene.cells, directory);
+        scene.references = experiment.references.iter().map(read).collect::<Result<_, _>>()?;
+    }
+    Ok(Loaded { experiment, scenes })
+}
+
+/// The cells of an experiment scene by scene, in the order of a run, still without references; and how
+/// many belong to none of its turns.
+///
+/// # Errors
+/// One line where two cells answer the same, or a scene changed between them.
+fn scenes(experiment: &Experiment, cells: &[Cell]) -> Result<(Vec<SceneCells>, usize), String> {
     let mut scenes: Vec<(&str, BTreeMap<Key<'_>, &Cell>)> = Vec::new();
-    for cell in &cells {
-        let Some(turn) = turn_of(cell, &experiment) else { continue };
+    let mut foreign = 0;
+    for cell in cells {
+        let Some(turn) = turn_of(cell, experiment) else {
+            foreign += 1;
+            continue;
+        };
         let name = cell.inputs.scene.as_str();
         let index = scenes.iter().position(|(scene, _)| *scene == name).unwrap_or_else(|| {
             scenes.push((name, BTreeMap::new()));
             scenes.len() - 1
         });
         let machine = cell.provenance.machine.as_str();
-        // The later cell counts: that of a newer build.
-        scenes[index].1.insert((turn.repetition, turn.seed, turn.variant, machine), cell);
+        let key = (turn.repetition, turn.seed, turn.variant, machine);
+        // The later cell counts: that of a newer build, or that of a key which ran again.
+        if let Some(earlier) = scenes[index].1.insert(key, cell)
+            && earlier.key != cell.key
+            && earlier.provenance.program == cell.provenance.program
+        {
+            return Err(format!(
+                "cells.jsonl has two cells of one run, {} seed {} run {} on {machine}: {} and {}: \
+                 remove one of the lines",
+                cell.inputs.label(),
+                turn.seed,
+                turn.repetition + 1,
+                earlier.key,
+                cell.key
+            ));
+        }
     }
-    let on_adapter = cells.iter().rfind(|cell| cell.provenance.adapter.is_some());
-    let machine = on_adapter.unwrap_or(last).provenance.clone();
-    let scenes = scenes
-        .into_iter()
-        .map(|(name, cells)| scene_cells(&experiment, name, &cells, directory))
-        .collect::<Result<_, _>>()?;
-    Ok(Loaded { experiment, scenes, machine })
+    let position = |name: &str| experiment.scenes.iter().position(|scene| is_named(scene, name));
+    // Not in the order of the lines: those of merged folders have another one.
+    scenes.sort_by_key(|(name, _)| position(name).unwrap_or(usize::MAX));
+    let scenes = scenes.into_iter().map(|(name, cells)| scene_cells(name, &cells));
+    Ok((scenes.collect::<Result<_, _>>()?, foreign))
+}
+
+/// Whether an entry of `scenes`, a name or a file, may be the scene of this name.
+fn is_named(entry: &str, name: &str) -> bool {
+    entry == name || Path::new(entry).file_stem().is_some_and(|stem| stem == name)
 }
 
 /// Repetition, seed, variant, machine: the order of a run.
@@ -81,49 +119,48 @@ fn profile_of(cell: &Cell, file: &Path) -> Result<Option<Experiment>, Failure> {
 
 /// Which turn of an experiment a cell is; `None` where it is of another one.
 fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
-    let (inputs, scale) = (&cell.inputs, &experiment.scale);
+    let inputs = &cell.inputs;
+    let Inputs { scene, scene_content, exposure, seed, repetition, .. } = inputs;
+    let (seed, repetition) = (*seed, *repetition);
+    let identity = inputs.identity();
     let variant = experiment.variants.iter().position(|variant| {
+        let asked = Inputs::new(experiment, variant, scene, scene_content, *exposure);
+        let references = inputs.references.clone();
         variant.method.id() == inputs.method
-            && variant.given() == inputs.parameters
-            && variant.budget == inputs.budget
+            && Inputs { seed, repetition, references, ..asked }.identity() == identity
     })?;
-    let referred = experiment.references.iter().all(|reference| {
-        let samples = inputs.references.get(&reference.to_string());
-        samples.is_some_and(|&samples| samples >= scale.reference_samples)
+    // Before versions were counted, a cache decided: it gave what was asked for, or better.
+    let uncounted = cell.versions.is_empty();
+    let names = experiment.references.iter().map(ToString::to_string);
+    let good = names.map(|name| inputs.references.get(&name).copied()).all(|samples| {
+        let wanted = experiment.scale.reference_samples;
+        samples.is_some_and(|samples| samples == wanted || (uncounted && samples > wanted))
     });
-    let asked = inputs.resolution == scale.resolution
-        && inputs.transport == experiment.transport.to_string()
-        && scale.seeds.contains(&inputs.seed)
-        && inputs.repetition < scale.repetitions;
-    (referred && asked).then_some(Turn {
-        variant,
-        seed: inputs.seed,
-        repetition: inputs.repetition,
-    })
+    let asked = experiment.scale.seeds.contains(&seed)
+        && repetition < experiment.scale.repetitions
+        && experiment.exposures.get(scene).is_none_or(|wanted| wanted == exposure);
+    let referred = good && inputs.references.len() == experiment.references.len();
+    (asked && referred).then_some(Turn { variant, seed, repetition })
 }
 
-fn scene_cells(
-    experiment: &Experiment,
-    scene: &str,
-    cells: &BTreeMap<Key<'_>, &Cell>,
-    directory: &Path,
-) -> Result<SceneCells, Failure> {
-    let done = cells.values().find_map(|cell| match &cell.outcome {
-        Outcome::Done(done) => Some(done),
-        _ => None,
-    });
-    let inputs = &cells.values().next().expect("a scene is there for a cell").inputs;
-    let reference = |&visibility: &Visibility| {
-        let comparison = done.and_then(|done| done.errors.get(&visibility.to_string()));
-        SceneReference::read(visibility, inputs, comparison, directory)
-    };
+fn scene_cells(name: &str, cells: &BTreeMap<Key<'_>, &Cell>) -> Result<SceneCells, String> {
+    let first = &cells.values().next().expect("a scene is there for a cell").inputs;
+    let state = |of: &Inputs| (of.scene_content.clone(), of.exposure, of.references.clone());
+    if cells.values().any(|cell| state(&cell.inputs) != state(first)) {
+        return Err(format!(
+            "cells.jsonl has cells of two states of `{name}` or its references: finish the run"
+        ));
+    }
     let turn = |(&(repetition, seed, variant, _), &cell): (&Key<'_>, &&Cell)| {
         (Turn { variant, seed, repetition }, cell.clone())
     };
     Ok(SceneCells {
-        exposure: inputs.exposure,
-        references: experiment.references.iter().map(reference).collect::<Result<_, _>>()?,
+        scene: name.to_owned(),
+        exposure: first.exposure,
+        references: Vec::new(),
         cells: cells.iter().map(turn).collect(),
-        scene: scene.to_owned(),
     })
 }
+
+#[cfg(test)]
+mod tests;

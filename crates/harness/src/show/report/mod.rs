@@ -130,8 +130,9 @@ impl Report<'_> {
             (
                 "Light paths",
                 format!(
-                    "{}; references of {} samples a pixel",
-                    experiment.transport, scale.reference_samples
+                    "{}; references of {}",
+                    experiment.transport,
+                    table::reference_samples(self.answers)
                 ),
             ),
             (

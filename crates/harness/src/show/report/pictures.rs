@@ -8,8 +8,9 @@ use super::pixels;
 use crate::answer::error_scale::error_scale;
 use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
+use crate::measurement::pictures::image_path;
 use crate::measurement::reference::SceneReference;
-use crate::measurement::scene_cells::{SceneCells, image_path};
+use crate::measurement::scene_cells::SceneCells;
 use crate::question::experiment::Experiment;
 
 /// Characters of base64 that the pictures of one page may take: a phone still opens it.

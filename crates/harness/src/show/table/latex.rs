@@ -11,7 +11,7 @@ pub(crate) fn latex(
     scenes: &[SceneAnswer],
     machine: &Provenance,
 ) -> String {
-    let [scale, program] = head(experiment, machine);
+    let [scale, program] = head(experiment, scenes, machine);
     let mut text = format!(
         "% {}\n% {scale}\n% {program}\n% Needs \\usepackage{{booktabs,textcomp}} and UTF-8 input.\n",
         experiment.title.replace('\n', " ")

@@ -13,7 +13,7 @@ use crate::measurement::time_budget::TOLERANCE;
 use crate::question::columns::Column;
 use crate::question::experiment::Experiment;
 use crate::question::plan::Budget;
-use crate::show::numbers::{milliseconds, short};
+use crate::show::numbers::{milliseconds, ratio, short};
 
 pub(crate) use csv::csv;
 pub(crate) use latex::latex;
@@ -30,7 +30,11 @@ pub(crate) struct Table {
 }
 
 /// What the experiment asked and what it was answered with.
-pub(crate) fn head(experiment: &Experiment, machine: &Provenance) -> [String; 2] {
+pub(crate) fn head(
+    experiment: &Experiment,
+    scenes: &[SceneAnswer],
+    machine: &Provenance,
+) -> [String; 2] {
     let scale = &experiment.scale;
     let [width, height] = scale.resolution;
     let adapter = machine.adapter.as_ref().map_or_else(String::new, |adapter| {
@@ -40,12 +44,12 @@ pub(crate) fn head(experiment: &Experiment, machine: &Provenance) -> [String; 2]
     [
         format!(
             "Profile {}: {width}×{height} pixels, transport {}, {} timed runs for each of {} \
-             seed(s), references of {} samples a pixel.",
+             seed(s), references of {}.",
             experiment.profile,
             experiment.transport,
             scale.repetitions,
             scale.seeds.len(),
-            scale.reference_samples,
+            reference_samples(scenes),
         ),
         format!(
             "{}; {}, {} threads, {}{adapter}.",
@@ -55,6 +59,26 @@ pub(crate) fn head(experiment: &Experiment, machine: &Provenance) -> [String; 2]
             machine.system,
         ),
     ]
+}
+
+/// `1024 samples a pixel`, with the scenes where they differ.
+pub(crate) fn reference_samples(scenes: &[SceneAnswer]) -> String {
+    let mut groups: Vec<(Vec<u32>, Vec<&str>)> = Vec::new();
+    for scene in scenes {
+        let mut samples: Vec<u32> = scene.samples.values().copied().collect();
+        samples.dedup();
+        match groups.iter_mut().find(|(known, _)| *known == samples) {
+            Some((_, names)) => names.push(&scene.scene),
+            None => groups.push((samples, vec![&scene.scene])),
+        }
+    }
+    let several = groups.len() > 1;
+    let group = |(samples, names): &(Vec<u32>, Vec<&str>)| {
+        let samples = samples.iter().map(ToString::to_string).collect::<Vec<_>>().join(" and ");
+        if several { format!("{samples} ({})", names.join(", ")) } else { samples }
+    };
+    let groups: Vec<String> = groups.iter().map(group).collect();
+    format!("{} samples a pixel", groups.join(" and "))
 }
 
 /// The tables of a scene: one for each reference, then the times to reach an error.
@@ -131,18 +155,18 @@ impl Place<'_> {
     fn cell(&self, column: Column, medians: &Medians) -> String {
         let errors = &medians.errors[self.reference];
         let base = self.scene.baseline(self.row).and_then(Row::medians);
-        let ratio = |of: &dyn Fn(&Medians) -> f64| {
-            base.map_or_else(String::new, |base| short(of(medians) / of(base)))
+        let over_base = |of: &dyn Fn(&Medians) -> f64| {
+            base.map_or_else(String::new, |base| ratio(of(medians), of(base)))
         };
         let bias = medians.bias.get(self.reference);
         match column {
             Column::Counts => counts(medians),
             Column::Time => milliseconds(medians.seconds.median) + self.overrun(medians),
             Column::Quartiles => quartiles(medians.seconds),
-            Column::TimeRatio => ratio(&|row| row.seconds.median),
+            Column::TimeRatio => over_base(&|row| row.seconds.median),
             Column::Rmse => short(errors.display.rmse),
             Column::RmseRatio => {
-                ratio(&|row| row.errors[self.reference].display.rmse) + self.insignificance()
+                over_base(&|row| row.errors[self.reference].display.rmse) + self.insignificance()
             }
             Column::Bias => bias.map_or_else(String::new, |split| short(split.bias)),
             Column::Deviation => bias.map_or_else(String::new, |split| short(split.deviation)),
@@ -240,7 +264,7 @@ pub(crate) fn published(experiment: &Experiment, scenes: &[SceneAnswer]) -> Opti
             metric,
             short(published.value),
             ours.map_or_else(|| "none".to_owned(), short),
-            ours.map_or_else(String::new, |ours| short(ours / published.value)),
+            ours.map_or_else(String::new, |ours| ratio(ours, published.value)),
         ]
     };
     Some(Table {

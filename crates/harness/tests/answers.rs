@@ -1,0 +1,193 @@
+//! Answers do not depend on the way to them: `report` and `merge` give what `run` gave, and a run what
+//! another one gives, whatever caches hold.
+
+mod common;
+
+use std::path::Path;
+
+use common::{manylights, refused, succeeded};
+
+const EXPERIMENT: &str = r#"
+title = "Test"
+question = "Is it the same?"
+scenes = ["cornell", "trio"]
+transport = "indirect-1"
+references = ["traced", "ignored"]
+[[methods]]
+id = "reference"
+parameters = { samples = [1, 4] }
+visibility = ["traced", "ignored"]
+[profiles.quick]
+resolution = [16, 16]
+reference_samples = 4
+repetitions = 2
+seeds = [1, 2]
+"#;
+
+struct Place(tempfile::TempDir);
+
+impl Place {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("temporary folder"))
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().expect("UTF-8").to_owned()
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).expect(name)
+    }
+
+    fn write(&self, name: &str, text: &str) -> String {
+        std::fs::write(self.path(name), text).expect("writable");
+        self.path(name)
+    }
+
+    fn run(&self, experiment: &str, out: &str, cache: &str) {
+        let file = self.write("asked.toml", experiment);
+        let (out, cache) = (self.path(out), self.path(cache));
+        let arguments = ["run", &file, "--profile", "quick", "--out", &out, "--cache", &cache];
+        succeeded(&manylights(&arguments));
+    }
+
+    fn tables(&self, out: &str) -> [String; 3] {
+        ["table.csv", "table.md", "table.tex"].map(|name| self.read(&format!("{out}/{name}")))
+    }
+}
+
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("writable");
+    for entry in from.read_dir().expect("a folder") {
+        let entry = entry.expect("an entry").path();
+        let target = to.join(entry.file_name().expect("a name"));
+        match entry.is_dir() {
+            true => copy(&entry, &target),
+            false => drop(std::fs::copy(&entry, &target).expect("copied")),
+        }
+    }
+}
+
+#[test]
+fn report_and_merge_give_what_the_run_gave() {
+    let place = Place::new();
+    place.run(EXPERIMENT, "out", "cache");
+    let tables = place.tables("out");
+    let rows = tables[0].lines().count();
+    assert_eq!(rows, 1 + 2 * 2 * 4, "a head; scenes, references, settings with their visibility");
+
+    succeeded(&manylights(&["report", &place.path("out")]));
+    assert_eq!(place.tables("out"), tables);
+
+    // Two folders, lines in turn; the second first.
+    let journal = place.read("out/cells.jsonl");
+    for (part, name) in ["even", "odd"].into_iter().enumerate() {
+        copy(place.path("out").as_ref(), place.path(name).as_ref());
+        let lines = journal.lines().skip(part).step_by(2);
+        let lines: String = lines.map(|line| format!("{line}\n")).collect();
+        place.write(&format!("{name}/cells.jsonl"), &lines);
+    }
+    let merged = place.path("merged");
+    succeeded(&manylights(&["merge", &place.path("odd"), &place.path("even"), "--out", &merged]));
+    assert_eq!(place.tables("merged"), tables);
+
+    // The same run once more, under another name.
+    let first = journal.lines().next().expect("a line");
+    let (start, rest) = first.split_once("\"key\":\"").expect("a key");
+    let twin = start.replace("\"format\":2", "\"format\":1") + "\"key\":\"" + &"0".repeat(64);
+    place.write("out/cells.jsonl", &format!("{journal}{twin}{}\n", &rest[64..]));
+    refused(&["report", &place.path("out")], "two cells of one run");
+}
+
+#[test]
+fn caches_decide_nothing() {
+    let place = Place::new();
+    place.run(EXPERIMENT, "cold", "cache");
+    let more = EXPERIMENT.replace("reference_samples = 4", "reference_samples = 256");
+    place.run(&more, "more", "cache");
+    place.run(EXPERIMENT, "warm", "cache");
+    let errors = |out: &str| -> Vec<String> {
+        let text = place.read(&format!("{out}/cells.jsonl"));
+        let cells = text.lines().map(|line| {
+            let cell: serde_json::Value = serde_json::from_str(line).expect("JSON");
+            cell["errors"].to_string()
+        });
+        cells.collect()
+    };
+    assert_eq!(errors("cold"), errors("warm"));
+    assert_ne!(errors("cold"), errors("more"));
+    // Two slices of 16, not the 4 that were asked for.
+    assert!(place.read("warm/table.md").contains("references of 32 samples a pixel"));
+
+    // A finished run renders nothing, whatever became of the cache.
+    let (journal, tables) = (place.read("warm/cells.jsonl"), place.tables("warm"));
+    place.run(EXPERIMENT, "warm", "empty");
+    assert_eq!(place.read("warm/cells.jsonl"), journal);
+    assert_eq!(place.tables("warm"), tables);
+    let rendered = Path::new(&place.path("empty")).read_dir().expect("a folder").count();
+    assert_eq!(rendered, 0, "references or direct light");
+
+    // But not with the reference of another profile in its place.
+    let other = place.path("more/cells/cornell-reference-traced.exr");
+    std::fs::copy(other, place.path("warm/cells/cornell-reference-traced.exr")).expect("copied");
+    refused(&["report", &place.path("warm")], "not the reference that the cells");
+    place.run(EXPERIMENT, "warm", "empty");
+    assert_eq!(place.tables("warm"), tables);
+    succeeded(&manylights(&["report", &place.path("warm")]));
+}
+
+#[test]
+fn another_question_does_not_replace_an_answer() {
+    let place = Place::new();
+    place.run(EXPERIMENT, "out", "cache");
+    let tables = place.tables("out");
+    let file = place.write("other.toml", &EXPERIMENT.replace("\"Test\"", "\"Other\""));
+    let arguments = ["run", &file, "--profile", "quick", "--out", &place.path("out")];
+    refused(&arguments, "choose another --out");
+    assert_eq!(place.tables("out"), tables);
+    assert_eq!(place.read("out/experiment.toml"), EXPERIMENT);
+}
+
+#[test]
+fn what_no_scene_or_seed_answers_is_refused() {
+    let place = Place::new();
+    let published = "[[published]]\nsource = \"x\"\nscene = \"cornel\"\nreference = \"traced\"\n\
+                     method = { id = \"reference\", parameters = { samples = 1 } }\n\
+                     values = { rmse = 0.1 }\n";
+    let crop = "[[crops]]\nscene = \"cornel\"\nrectangle = [0.5, 0.5, 0.25, 0.25]\n";
+    let exposure = "[exposures]\ncornel = 2.0\n";
+    for (text, said) in [
+        (
+            format!("{EXPERIMENT}{published}"),
+            "published: unknown scene `cornel`: did you mean `corn",
+        ),
+        (format!("{EXPERIMENT}{crop}"), "crops: unknown scene `cornel`: did you mean `cornell`?"),
+        (
+            format!("{EXPERIMENT}{exposure}"),
+            "exposures: unknown scene `cornel`: did you mean `corn",
+        ),
+        (EXPERIMENT.replace("[1, 2]", "[1, 1]"), "seeds: `1` is listed twice"),
+    ] {
+        let file = place.write("asked.toml", &text);
+        refused(&["run", &file, "--profile", "quick", "--out", &place.path("out")], said);
+        refused(&["plan", &file, "--profile", "quick"], said);
+    }
+}
+
+#[test]
+fn exact_pictures_have_no_ratio_of_errors() {
+    let place = Place::new();
+    let direct = EXPERIMENT
+        .replace("\"indirect-1\"", "\"direct\"")
+        .replace("\"traced\", \"ignored\"", "\"traced\"");
+    place.run(&direct.replace("\"cornell\", \"trio\"", "\"cornell\""), "out", "cache");
+    let [csv, markdown, latex] = place.tables("out");
+    for text in [&csv, &markdown, &latex] {
+        assert!(!text.contains("NaN"), "{text}");
+    }
+    let rows: Vec<&str> = markdown.lines().filter(|line| line.contains("| reference ")).collect();
+    assert_eq!(rows.len(), 2, "{markdown}");
+    for row in rows {
+        assert!(row.contains("| 0 | - |") && !row.contains('≈'), "{row}");
+    }
+}
