@@ -248,9 +248,11 @@ fn an_equal_build_time_is_searched_with_bakes_that_are_made_anew() {
     // No bake takes so long: the most work is the nearest.
     let budget = (Budget::Seconds(1e9), Bounded::BuildTime);
     let (scenes, log) = cells(depends, budget, &[0]);
-    // Warm-ups are for adapters; two tries, then the one that is measured.
+    // Two tries, then what is measured. These bakes do nothing: which try took longer is the clock's
+    // affair, and one of too little work is corrected.
     let [least, most] = [4, 64].map(|work| format!("bake nave, seed 1, work {work}"));
-    assert_eq!(log, [least, most.clone(), most]);
+    assert_eq!(log[..2], [least, most.clone()]);
+    assert!(log.len() > 2 && log.last() == Some(&most), "{log:?}");
     let found: Vec<_> = done(&scenes[0]).map(|cell| (cell.amount, cell.bake_shared)).collect();
     assert_eq!(found, [(64, false), (64, true), (64, true), (64, true)]);
     // Where a frame is what costs, the bake is not made again for each try.

@@ -426,6 +426,10 @@ seeds = [1]
             let reason = refused(from, to);
             assert!(reason.contains(said) && reason.lines().count() == 1, "{reason} / {said}");
         }
+        let timed = GOOD.replace("seeds = [1]", "seeds = [1]\ntimes = [1]");
+        let built = timed.replace("{ samples = [1, 4, 16] }", "{}\nbudget = \"build_time\"");
+        let reason = parse(&built, Profile::Quick).expect_err("path tracing bakes nothing");
+        assert!(reason.contains("bakes nothing that grows with `samples`"), "{reason}");
         let missing = parse(GOOD, Profile::Paper).expect_err("no paper profile");
         assert!(missing.contains("[profiles.paper]"), "{missing}");
         let seed = refused("seeds = [1]", &format!("seeds = [{REFERENCE_SEED}]"));
