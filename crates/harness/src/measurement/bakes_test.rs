@@ -10,12 +10,15 @@ use manylights_method::{
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Visibility};
 
+use crate::answer::rows::SceneAnswer;
 use crate::measurement::bakes::{Bakes, Origin, SceneHashes, Wanted};
 use crate::measurement::cell::{Done, Outcome};
 use crate::measurement::scene_cells::SceneCells;
 use crate::measurement::session::Session;
+use crate::question::columns::Column;
 use crate::question::experiment::{self, Experiment, Profile};
 use crate::question::plan::{Bounded, Budget, Variant};
+use crate::show::table;
 
 struct Baker {
     depends: Dependencies,
@@ -163,6 +166,13 @@ repetitions = 2
 seeds = [1, 2]
 "#;
 
+/// [`EXPERIMENT`], read in this folder.
+fn experiment_in(folder: &Path) -> Experiment {
+    let file = folder.join("experiment.toml");
+    std::fs::write(&file, EXPERIMENT).expect("writable");
+    experiment::read(&file, Profile::Quick).expect("valid")
+}
+
 /// The cells of `cameras` of the atrium by a method that bakes, with this budget; and what it wrote down.
 fn cells(
     depends: Dependencies,
@@ -170,17 +180,22 @@ fn cells(
     cameras: &[usize],
 ) -> (Vec<SceneCells>, Vec<String>) {
     let folder = tempfile::tempdir().expect("temporary folder");
-    let file = folder.path().join("experiment.toml");
-    std::fs::write(&file, EXPERIMENT).expect("writable");
-    let mut experiment = experiment::read(&file, Profile::Quick).expect("valid");
+    let mut experiment = experiment_in(folder.path());
     let baker = Baker::new(depends, Processor::Cpu);
-    let method: &'static dyn Method = Box::leak(Box::new(baker));
-    let parameters = Parameters::defaults(method.parameters());
-    let visibility = Visibility::Traced;
-    experiment.variants =
-        vec![Variant { method, parameters, swept: "work", visibility, budget, bounded }];
+    experiment.variants = vec![Variant { budget, bounded, ..variant(baker) }];
     let scenes = measured(&experiment, folder.path(), cameras);
     (scenes, baker.log())
+}
+
+fn variant(baker: &'static Baker) -> Variant {
+    Variant {
+        method: Box::leak(Box::new(baker)),
+        parameters: Parameters::defaults((&baker).parameters()),
+        swept: "work",
+        visibility: Visibility::Traced,
+        budget: Budget::Count,
+        bounded: Bounded::Time,
+    }
 }
 
 fn measured(experiment: &Experiment, folder: &Path, cameras: &[usize]) -> Vec<SceneCells> {
@@ -264,9 +279,7 @@ fn an_equal_build_time_is_searched_with_bakes_that_are_made_anew() {
 #[test]
 fn a_baseline_without_a_bake_sets_no_build_time() {
     let folder = tempfile::tempdir().expect("temporary folder");
-    let file = folder.path().join("experiment.toml");
-    std::fs::write(&file, EXPERIMENT).expect("writable");
-    let mut experiment = experiment::read(&file, Profile::Quick).expect("valid");
+    let mut experiment = experiment_in(folder.path());
     let budgeted = Variant {
         budget: Budget::Baseline,
         bounded: Bounded::BuildTime,
@@ -281,6 +294,35 @@ fn a_baseline_without_a_bake_sets_no_build_time() {
         let Outcome::Declined { reason } = cell.outcome else { panic!("{:?}", cell.outcome) };
         assert!(reason.contains("bakes nothing"), "{reason}");
     }
+}
+
+#[test]
+fn no_table_tells_the_time_of_a_baked_frame_without_the_bake() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let mut experiment = experiment_in(folder.path());
+    experiment.columns = vec![Column::Time, Column::Rmse];
+    experiment.variants.push(variant(Baker::new(NOTHING, Processor::Cpu)));
+    let scene = manylights_scene::load("atrium", None).expect("built in");
+    let mut session =
+        Session::open(&experiment, folder.path(), folder.path(), None).expect("a free folder");
+    let mut headings = |variants: &[usize]| {
+        let mut cells = session.scene(&scene, 0, variants).expect("a scene");
+        for (_, cell) in &mut cells.cells {
+            let Outcome::Done(done) = &mut cell.outcome else { panic!("{:?}", cell.outcome) };
+            if done.bake_counters.contains_key("views") {
+                done.bake_seconds = 7.0;
+            }
+        }
+        let answer = SceneAnswer::new(&experiment, &cells, folder.path()).expect("pictures");
+        let table = table::of_scene(&experiment, &answer).swap_remove(0);
+        let titles: Vec<_> = table.heading.iter().map(|(title, _)| *title).collect();
+        (titles, table.lines)
+    };
+    assert_eq!(headings(&[0]).0, ["rank", "method", "time ms", "RMSE"]);
+    let (titles, lines) = headings(&[0, 1]);
+    assert_eq!(titles, ["rank", "method", "time ms", "bake ms", "RMSE"]);
+    let bakes: Vec<_> = lines.iter().map(|line| line[3].as_str()).collect();
+    assert_eq!(bakes, ["0", "7000", ""]);
 }
 
 /// Scene, camera, seed, amount of work.
