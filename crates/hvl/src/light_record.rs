@@ -7,7 +7,7 @@ use manylights_scene::{Brdf, Lobe};
 
 use crate::{LobeShape, emission};
 
-/// The sphere with its light as [`GlossyLight`] holds it, where it lies on a glossy surface: directions
+/// The sphere with its light as `GlossyLight` holds it, where it lies on a glossy surface: directions
 /// to 6.5e-5, reflectances and the inverse of an index of refraction to 8e-6.
 pub fn rounded(sphere: &SphericalLight) -> SphericalLight {
     let mut light = sphere.light;
