@@ -2,7 +2,7 @@
 //!
 //! [`RadianceImage`] holds linear Rec. 709 radiance; it is read from and written to OpenEXR and shown
 //! as PNG. [`compare_linear`] and [`compare_display`] measure how far one picture is from another,
-//! [`METRICS`] names what they measure, [`false_color`] shows where. Nothing skips a pixel: one that
+//! [`METRICS`] names what they measure, [`false_color()`] shows where. Nothing skips a pixel: one that
 //! is infinite or not a number is an error that names it.
 
 mod compare;
