@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use manylights_method::{Bake, Error, Frame, Method, Parameters, Processor, Run};
+use manylights_method::{Error, Processor, Run};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer as path_tracer;
 use manylights_scene::Scene;
 
 use crate::error::Failure;
-use crate::measurement::bakes::{BakeCost, Origin, SceneHashes, Wanted};
+use crate::measurement::bakes::SceneHashes;
 use crate::measurement::cell::{Cell, Checkpoint, Done, Outcome, image_sha256};
 use crate::measurement::inputs::{self, Inputs};
-use crate::measurement::measure::{self, Look, Measured};
+use crate::measurement::measure::{self, Measured};
 use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::{SceneCells, image_path};
@@ -29,13 +29,13 @@ pub(crate) struct SceneRun<'s, 'a> {
     /// The scene, ready.
     pub(crate) stage: Stage<'s>,
     /// Index into the experiment's cameras.
-    camera: usize,
+    pub(crate) camera: usize,
     /// Scene and camera, for people and files.
     view: String,
     /// Hash of the content of scene and camera.
     content: String,
     /// What bakes may depend on.
-    hashes: SceneHashes,
+    pub(crate) hashes: SceneHashes,
     /// What the pictures are compared with.
     pub(crate) references: &'s [SceneReference],
     /// Of each variant, the value of the cost parameter that its time budget was found to allow.
@@ -191,72 +191,6 @@ impl SceneRun<'_, '_> {
             // What fails here fails again by the clock, where it is recorded.
             let _ = self.measure(turn, self.amounts[turn.variant], &mut |_, _, _| Ok(()));
         }
-    }
-
-    /// One run, with the amount of work that a time budget allows where there is one.
-    pub(crate) fn measure(
-        &mut self,
-        turn: Turn,
-        amount: Option<u64>,
-        look: Look<'_>,
-    ) -> Result<Measured, Error> {
-        self.with_bake(turn, amount, false, |method, frame, parameters, bake| {
-            measure::measure(method, frame, parameters, bake, look)
-        })
-    }
-
-    /// What a bake takes that is made for this alone; nothing where the method makes none.
-    pub(crate) fn measure_bake(
-        &mut self,
-        turn: Turn,
-        amount: Option<u64>,
-    ) -> Result<BakeCost, Error> {
-        self.with_bake(turn, amount, true, |_, _, _, bake| {
-            Ok(bake.map_or_else(BakeCost::default, |(_, cost)| cost))
-        })
-    }
-
-    /// Calls with all that a run of a variant needs; the bake is one that is at hand, if there is one
-    /// and it need not be made `anew`.
-    fn with_bake<T>(
-        &mut self,
-        turn: Turn,
-        amount: Option<u64>,
-        anew: bool,
-        call: impl FnOnce(
-            &dyn Method,
-            &Frame<'_>,
-            &Parameters,
-            Option<(&dyn Bake, BakeCost)>,
-        ) -> Result<T, Error>,
-    ) -> Result<T, Error> {
-        let Session { experiment, bakes, gpu, .. } = &mut *self.session;
-        let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
-        let transport = measure::with_visibility(experiment.transport, *visibility);
-        let set = |amount| parameters.with_count(method.cost_parameter(), amount);
-        let parameters = &amount.map_or_else(|| parameters.clone(), set);
-        let frame = self.stage.frame(transport, turn.seed);
-        let Some(baking) = method.baking() else { return call(*method, &frame, parameters, None) };
-        let origin = Origin {
-            scene: self.hashes.clone(),
-            seed: turn.seed,
-            amount: parameters.count(method.cost_parameter()),
-        };
-        let (variant, camera) = (turn.variant, self.camera);
-        let wanted = Wanted { variant, baking, parameters, origin, camera };
-        if anew {
-            bakes.forget(variant);
-        }
-        let bake = bakes.get(&wanted, &|place, bake| {
-            if place == camera {
-                return bake(&frame);
-            }
-            let name = experiment.cameras()[place];
-            let stage = Stage::new(frame.scene, name, frame.resolution, gpu.as_ref());
-            let stage = stage.map_err(|failure| Error::Failed(failure.to_string()))?;
-            bake(&stage.frame(transport, turn.seed))
-        })?;
-        call(*method, &frame, parameters, Some(bake))
     }
 
     /// As [`Self::measure`], looked at whenever the work has doubled, where the method is progressive.
