@@ -1,6 +1,6 @@
 //! `manylights merge`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::answer_files;
 use crate::cell::{Cell, Outcome};
@@ -15,9 +15,13 @@ use crate::session::image_path;
 /// row is one machine's; ratios are to the baseline of the same machine.
 ///
 /// # Errors
-/// One line where a folder holds no results or those of another experiment.
+/// One line where a folder holds no results or those of another experiment, or is that of the merged
+/// results.
 pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
     let out = &arguments.out;
+    let parts = |folder: &Path| ["cells.jsonl", "cells"].map(|name| folder.join(name));
+    let inputs: Vec<_> = arguments.directories.iter().flat_map(|folder| parts(folder)).collect();
+    output::keep_inputs(parts(out), inputs.iter().map(PathBuf::as_path), "--out")?;
     output::check_directory(&out.join("cells"), "--out")?;
     let mut journal = Journal::open(out)?;
     for directory in &arguments.directories {
