@@ -270,16 +270,28 @@ fn coordinates_beyond_single_precision() {
     assert_eq!(rounded(|r| r["nodes"][0] = kilometres), 0);
 }
 
+/// Triangles with their right angle at x = 1, of these sizes.
+fn of_sizes(root: &mut Value, sizes: &[f32]) {
+    let corners = |&size: &f32| [1.0, 0.0, 0.0, 1.0 + size, 0.0, 0.0, 1.0, size, 0.0];
+    let corners: Vec<f32> = sizes.iter().flat_map(corners).collect();
+    let positions = accessor(root, 5126, "VEC3", 3 * sizes.len(), &floats(&corners));
+    root["meshes"][0]["primitives"][0] = json!({ "attributes": { "POSITION": positions } });
+}
+
 #[test]
 fn some_small_triangles_are_in_every_scene() {
-    let of_sizes = |sizes: [f32; 3]| {
-        rounded(|root| {
-            let node =
-                |size| json!({ "mesh": 0, "scale": [size, size, size], "translation": [1, 0, 0] });
-            root["nodes"] = json!(sizes.map(node));
-            root["scenes"][0]["nodes"] = json!([0, 1, 2]);
-        })
+    assert_eq!(rounded(|root| of_sizes(root, &[1e-5, 1.0, 1.0])), 0);
+    assert_eq!(rounded(|root| of_sizes(root, &[1e-5, 1e-5, 1.0])), 2);
+}
+
+#[test]
+fn an_object_is_far_whatever_lies_at_the_origin() {
+    let far = |root: &mut Value| {
+        of_sizes(root, &[1.0; 5]);
+        let small = json!({ "attributes": { "POSITION": 0 }, "indices": 1 });
+        root["meshes"].as_array_mut().expect("is one").push(json!({ "primitives": [small] }));
+        root["nodes"] = json!([{ "mesh": 0 }, { "mesh": 1, "translation": [0, 0, 4e6] }]);
+        root["scenes"][0]["nodes"] = json!([0, 1]);
     };
-    assert_eq!(of_sizes([1e-5, 1.0, 1.0]), 0);
-    assert_eq!(of_sizes([1e-5, 1e-5, 1.0]), 2);
+    assert_eq!(rounded(far), 1);
 }

@@ -15,4 +15,6 @@ pub(super) struct Import<'a> {
     pub(super) far_planes: Vec<f32>,
     /// Triangles that single precision rounds visibly.
     pub(super) rounded: u64,
+    /// Those of them whose primitive is as small for its distance from the origin.
+    pub(super) rounded_whole: u64,
 }

@@ -66,6 +66,7 @@ fn import(path: &Path, keep_lights: bool) -> Result<Scene, LoadError> {
         keep_lights,
         far_planes: Vec::new(),
         rounded: 0,
+        rounded_whole: 0,
     };
     nodes::add_all(&mut import, roots)?;
     note_whole(&mut import);
@@ -77,7 +78,7 @@ fn import(path: &Path, keep_lights: bool) -> Result<Scene, LoadError> {
 
 /// Notes that need the whole scene.
 fn note_whole(import: &mut Import) {
-    let Import { scene, notes, far_planes, rounded, .. } = import;
+    let Import { scene, notes, far_planes, .. } = import;
     let (low, high) = scene.bounds();
     let is_cut = |(camera, far): &(&Camera, &f32)| {
         let farthest = (camera.forward * low).max(camera.forward * high).element_sum();
@@ -85,11 +86,10 @@ fn note_whole(import: &mut Import) {
     };
     let cut = scene.cameras.iter().zip(&*far_planes).filter(is_cut).count();
     notes.count("cameras whose far plane cuts the scene, drawn without it", cut as u64);
-    // Some small triangles are in every scene.
-    if 2 * *rounded > scene.triangles.len() as u64 {
-        notes.count(
-            "triangles too far from the origin for single precision, rounded (move the scene there)",
-            *rounded,
-        );
-    }
+    // Some small triangles are in every scene, not so most of them or a whole object.
+    let most = 2 * import.rounded > scene.triangles.len() as u64;
+    notes.count(
+        "triangles too far from the origin for single precision, rounded (move the scene there)",
+        if most { import.rounded } else { import.rounded_whole },
+    );
 }

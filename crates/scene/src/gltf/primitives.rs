@@ -50,6 +50,9 @@ pub(super) fn add(
         }
     }
     import.rounded += builder.rounded;
+    if MAX_REACH * vertices.extent() < vertices.reach {
+        import.rounded_whole += builder.rounded;
+    }
     Ok(())
 }
 
@@ -128,6 +131,14 @@ impl Vertices {
             .notes
             .count("primitives without normals, flat ones computed", u64::from(normals.is_empty()));
         Self { positions, normals, uvs, reach }
+    }
+
+    /// Diagonal of their bounds.
+    fn extent(&self) -> f32 {
+        let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let bounds = |(low, high): (Vec3, Vec3), p: &Vec3| (low.min(*p), high.max(*p));
+        let (low, high) = self.positions.iter().fold(empty, bounds);
+        low.distance(high)
     }
 }
 
