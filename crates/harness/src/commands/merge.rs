@@ -76,7 +76,7 @@ fn copy_pictures(cell: &Cell, from: &Path, to: &Path) -> Result<(), Failure> {
     if !matches!(cell.outcome, Outcome::Done(_)) || cell.inputs.repetition > 0 {
         return Ok(());
     }
-    let [from, to] = [from, to].map(|folder| image_path(folder, &cell.inputs.scene, &cell.key));
+    let [from, to] = [from, to].map(|folder| image_path(folder, &cell.inputs.view(), &cell.key));
     for extension in ["exr", "png", "layers.exr"] {
         let [from, to] = [&from, &to].map(|path| path.with_extension(extension));
         copy(&from, &to)?;

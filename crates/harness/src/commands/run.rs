@@ -62,13 +62,16 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let variants: Vec<usize> = (0..experiment.variants.len()).collect();
     let mut all_cells = Vec::with_capacity(scenes.len());
     for scene in &scenes {
-        let cells = session.scene(scene, &variants)?;
-        session.retire(&cells)?;
-        all_cells.push(cells);
+        for camera in 0..experiment.cameras().len() {
+            let cells = session.scene(scene, camera, &variants)?;
+            session.retire(&cells)?;
+            all_cells.push((scene, cells));
+        }
     }
+    let (scenes, all_cells): (Vec<_>, Vec<_>) = all_cells.into_iter().unzip();
     let command = report::command(file, &experiment, arguments.out.as_deref());
     let answers = answer_files::write(&experiment, &all_cells, &session.on_gpu, command, out)?;
-    for ((scene, cells), answer) in scenes.iter().zip(&all_cells).zip(&answers) {
+    for ((scene, cells), answer) in scenes.into_iter().zip(&all_cells).zip(&answers) {
         layers::write(&experiment, scene, cells, answer, [&cache, out])?;
     }
     check(&answers)
@@ -104,7 +107,7 @@ fn job(session: &mut Session<'_>, scenes: &[Scene], key: &str) -> Result<(), Fai
     let job = jobs.iter().find(|job| job.key == key).ok_or_else(|| {
         Failure::input(format!("--cell {key}: not a key of this experiment; see manylights plan"))
     })?;
-    let cells = session.scene(&scenes[job.scene], &[job.variant])?;
+    let cells = session.scene(&scenes[job.scene], job.camera, &[job.variant])?;
     session.retire(&cells)?;
     let failed = cells.cells.iter().find_map(|(_, cell)| match &cell.outcome {
         Outcome::Failed { reason } => Some(reason),
