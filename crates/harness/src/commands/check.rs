@@ -1,6 +1,6 @@
 //! `manylights check`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::answer::regression::{self, Moved};
 use crate::answer::statistics::median;
@@ -13,7 +13,6 @@ use crate::measurement::session::Session;
 use crate::output::{self, print_json};
 use crate::question::experiment::{self, Experiment, Profile};
 use clap::Args;
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
@@ -95,6 +94,10 @@ fn measure(
 ) -> Result<Vec<Cell>, Failure> {
     let machine = &arguments.machine;
     let scenes = run::load(experiment, machine.assets.as_deref())?;
+    if arguments.bless {
+        let sources = scenes.iter().flat_map(|scene| &scene.sources).map(PathBuf::as_path);
+        output::keep_inputs([arguments.baseline.join("cells.jsonl")], sources, "--baseline")?;
+    }
     let cache = out.join("references");
     output::check_directory(&cache, "TMPDIR")?;
     let mut session = Session::open(experiment, out, &cache, machine.adapter.as_deref())?;

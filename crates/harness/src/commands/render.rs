@@ -1,6 +1,6 @@
 //! `manylights render`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::commands::machine::Machine;
 use crate::error::Failure;
@@ -15,7 +15,6 @@ use crate::question::settings;
 use crate::registry;
 use clap::Args;
 use manylights_scene::{Transport, Visibility};
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct RenderArguments {
@@ -64,6 +63,8 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     }
     let (exr, png) = output::check_image(&arguments.output)?;
     let scene = stage::load(&arguments.scene, arguments.machine.assets.as_deref())?;
+    let inputs = scene.sources.iter().map(PathBuf::as_path);
+    output::keep_inputs([exr.clone(), png.clone()], inputs, "-o")?;
     let gpu = stage::open_gpu([method], arguments.machine.adapter.as_deref())?;
     let camera = arguments.camera.as_deref();
     let stage = Stage::new(&scene, camera, arguments.resolution, gpu.as_ref())?;
