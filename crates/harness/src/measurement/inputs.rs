@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::measurement::provenance::{Provenance, sha256};
 use crate::measurement::versions::Versions;
 use crate::question::experiment::Experiment;
-use crate::question::plan::{Budget, Variant};
+use crate::question::plan::{Bounded, Budget, Variant};
 use crate::registry;
 
 /// What decides the picture and its errors, and where its time was taken.
@@ -15,6 +15,9 @@ use crate::registry;
 pub(crate) struct Inputs {
     /// Name of the scene.
     pub(crate) scene: String,
+    /// Name of the camera, where the experiment lists some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) camera: Option<String>,
     /// Hash of its triangles, materials, lights and camera.
     pub(crate) scene_content: String,
     /// Method.
@@ -23,6 +26,9 @@ pub(crate) struct Inputs {
     pub(crate) parameters: BTreeMap<String, f64>,
     /// What it may cost.
     pub(crate) budget: Budget,
+    /// Which time a budget bounds.
+    #[serde(default, skip_serializing_if = "Bounded::is_time")]
+    pub(crate) bounded: Bounded,
     /// Same seed, same picture.
     pub(crate) seed: u64,
     /// Which of the timed runs.
@@ -40,22 +46,35 @@ pub(crate) struct Inputs {
     pub(crate) references: BTreeMap<String, u32>,
 }
 
+/// What a picture is of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen<'s> {
+    /// Name of the scene.
+    pub(crate) scene: &'s str,
+    /// Name of the camera, where the experiment lists some.
+    pub(crate) camera: Option<&'s str>,
+    /// As [`Inputs::scene_content`].
+    pub(crate) content: &'s str,
+    /// As [`Inputs::exposure`].
+    pub(crate) exposure: f32,
+}
+
 impl Inputs {
-    /// Of a variant on a scene of this name, content and exposure.
+    /// Of a variant on what pictures of it see.
     pub(crate) fn new(
         experiment: &Experiment,
         variant: &Variant,
-        scene: &str,
-        content: &str,
-        exposure: f32,
+        Seen { scene, camera, content, exposure }: Seen<'_>,
     ) -> Self {
         let samples = experiment.scale.reference_samples;
         Self {
             scene: scene.to_owned(),
+            camera: camera.map(str::to_owned),
             scene_content: content.to_owned(),
             method: variant.method.id().to_owned(),
             parameters: variant.given(),
             budget: variant.budget,
+            bounded: variant.bounded,
             seed: 0,
             repetition: 0,
             transport: experiment.transport.to_string(),
@@ -97,12 +116,18 @@ impl Inputs {
         let mut words = vec![self.method.clone()];
         words.extend(self.parameters.iter().map(|(name, value)| format!("{name}={value}")));
         words.extend(self.asked_visibility.iter().map(|asked| format!("visibility={asked}")));
+        let bounded = self.bounded.word();
         words.extend(match self.budget {
             Budget::Count => None,
-            Budget::Seconds(seconds) => Some(format!("time={seconds}s")),
-            Budget::Baseline => Some("time=baseline".to_owned()),
+            Budget::Seconds(seconds) => Some(format!("{bounded}={seconds}s")),
+            Budget::Baseline => Some(format!("{bounded}=baseline")),
         });
         words.join(" ")
+    }
+
+    /// Scene and camera, for headings and files.
+    pub(crate) fn view(&self) -> String {
+        view(&self.scene, self.camera.as_deref())
     }
 
     /// Names the cell: the hash of the inputs, of the versions of what computes it and of the machine.
@@ -112,4 +137,14 @@ impl Inputs {
         let text = format!("[{},{versions},{}]", self.identity(), provenance.place());
         sha256(text.as_bytes())
     }
+}
+
+/// The scene's name; that of the camera follows where the experiment lists some. Cameras of foreign files
+/// are named as anybody likes, and this names files.
+pub(crate) fn view(scene: &str, camera: Option<&str>) -> String {
+    let safe = |letter: char| if letter.is_alphanumeric() || letter == '_' { letter } else { '-' };
+    camera.map_or_else(
+        || scene.to_owned(),
+        |camera| format!("{scene}-{}", camera.chars().map(safe).collect::<String>()),
+    )
 }

@@ -1,5 +1,8 @@
 //! What is measured: scenes made ready, runs by the clock, cells on disk.
 
+pub(crate) mod bakes;
+#[cfg(test)]
+mod bakes_test;
 pub(crate) mod cell;
 pub(crate) mod equal_time;
 pub(crate) mod inputs;
@@ -15,4 +18,5 @@ pub(crate) mod session;
 pub(crate) mod stage;
 pub(crate) mod time_budget;
 pub(crate) mod valid;
+mod variant_run;
 pub(crate) mod versions;

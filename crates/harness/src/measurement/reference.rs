@@ -74,9 +74,9 @@ impl SceneReference {
     ///
     /// # Errors
     /// One line where the file cannot be written.
-    pub(crate) fn write(&self, scene: &str, out: &Path) -> Result<(), Failure> {
+    pub(crate) fn write(&self, view: &str, out: &Path) -> Result<(), Failure> {
         let samples = ("manylights.samples".to_owned(), self.samples.to_string());
-        let path = path(out, scene, self.visibility);
+        let path = path(out, view, self.visibility);
         self.image.write_exr(&path, &[samples]).map_err(Failure::input)
     }
 
@@ -95,7 +95,7 @@ impl SceneReference {
             Outcome::Done(done) if turn.repetition == 0 => Some((cell, done.errors.get(&name)?)),
             _ => None,
         });
-        let path = path(out, &inputs.scene, visibility);
+        let path = path(out, &inputs.view(), visibility);
         let floor = |floor: fn(&Comparison) -> f64| compared.map_or(0.0, |(_, to)| floor(to));
         let reference = Self {
             visibility,
@@ -106,7 +106,7 @@ impl SceneReference {
             exposure: inputs.exposure,
         };
         if let Some((cell, comparison)) = compared {
-            let picture = image_path(out, &inputs.scene, &cell.key).with_extension("exr");
+            let picture = image_path(out, &inputs.view(), &cell.key).with_extension("exr");
             let picture = RadianceImage::read_exr(&picture).map_err(Failure::input)?;
             let again = reference.compare(&picture).map_err(Failure::input)?.display.rmse;
             if (again - comparison.display.rmse).abs() > SAME * comparison.display.rmse {
@@ -137,8 +137,8 @@ impl SceneReference {
 }
 
 /// The picture of a reference among those of the cells.
-fn path(out: &Path, scene: &str, visibility: Visibility) -> PathBuf {
-    out.join("cells").join(format!("{scene}-reference-{visibility}.exr"))
+fn path(out: &Path, view: &str, visibility: Visibility) -> PathBuf {
+    out.join("cells").join(format!("{view}-reference-{visibility}.exr"))
 }
 
 fn at_scene(scene: &Scene, error: impl std::fmt::Display) -> Failure {

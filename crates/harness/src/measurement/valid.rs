@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use manylights_metrics::Errors;
 
+use crate::error::one_line;
 use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
 use crate::question::plan::Budget;
 use crate::question::settings;
@@ -24,9 +25,11 @@ pub(crate) fn check(cell: &Cell) -> Result<(), String> {
     let Cell { key, inputs, outcome, provenance, .. } = cell;
     let hashes = [("key", key), ("scene_content", &inputs.scene_content)];
     hashes.into_iter().try_for_each(|(name, text)| hash(name, text))?;
-    // It becomes part of the names of files.
-    if inputs.scene.is_empty() || inputs.scene.contains(['/', '\\']) || is_broken(&inputs.scene) {
-        return Err("`scene` is not a name".into());
+    // They become part of the names of files.
+    for name in inputs.camera.iter().chain([&inputs.scene]) {
+        if name.is_empty() || name.contains(['/', '\\']) || is_broken(name) {
+            return Err(format!("`{}` is not a name", one_line(name)));
+        }
     }
     if provenance.machine.is_empty() || is_broken(&provenance.machine) {
         return Err("`machine` is not a name".into());
@@ -46,9 +49,10 @@ pub(crate) fn check(cell: &Cell) -> Result<(), String> {
 }
 
 fn check_done(done: &Done, references: &BTreeMap<String, u32>) -> Result<(), String> {
+    within("bake_seconds", done.bake_seconds, 0.0, MOST_SECONDS)?;
     within("prepare_seconds", done.prepare_seconds, 0.0, MOST_SECONDS)?;
     within("step_seconds", done.step_seconds, f64::MIN_POSITIVE, MOST_SECONDS)?;
-    for &seconds in done.pass_seconds.values() {
+    for &seconds in done.pass_seconds.values().chain(done.bake_pass_seconds.values()) {
         within("pass_seconds", seconds, 0.0, MOST_SECONDS)?;
     }
     hash("image_sha256", &done.image_sha256)?;
@@ -114,6 +118,7 @@ pub(crate) mod tests {
     use crate::measurement::inputs::Inputs;
     use crate::measurement::provenance::{Provenance, sha256};
     use crate::measurement::versions::Versions;
+    use crate::question::plan::Bounded;
 
     /// A cell such as a run writes.
     pub(crate) fn done_cell(seed: u64) -> Cell {
@@ -131,6 +136,10 @@ pub(crate) mod tests {
             Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
         let done = Done {
             amount: 32,
+            bake_seconds: 0.0,
+            bake_pass_seconds: BTreeMap::new(),
+            bake_counters: BTreeMap::new(),
+            bake_shared: false,
             visibility: Some("traced".into()),
             prepare_seconds: 0.25,
             step_seconds: 0.3,
@@ -146,10 +155,12 @@ pub(crate) mod tests {
         };
         let inputs = Inputs {
             scene: "s".into(),
+            camera: None,
             scene_content: sha256(b"content"),
             method: "m".into(),
             parameters: BTreeMap::new(),
             budget: Budget::Count,
+            bounded: Bounded::Time,
             seed,
             repetition: 0,
             transport: "all".into(),

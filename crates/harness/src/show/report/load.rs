@@ -7,7 +7,7 @@ use clap::ValueEnum;
 
 use crate::error::Failure;
 use crate::measurement::cell::Cell;
-use crate::measurement::inputs::Inputs;
+use crate::measurement::inputs::{Inputs, Seen};
 use crate::measurement::lines;
 use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::SceneCells;
@@ -59,14 +59,14 @@ pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
 /// # Errors
 /// One line where two cells answer the same, or a scene changed between them.
 fn scenes(experiment: &Experiment, cells: &[Cell]) -> Result<(Vec<SceneCells>, usize), String> {
-    let mut scenes: Vec<(&str, BTreeMap<Key<'_>, &Cell>)> = Vec::new();
+    let mut scenes: Vec<(String, BTreeMap<Key<'_>, &Cell>)> = Vec::new();
     let mut foreign = 0;
     for cell in cells {
         let Some(turn) = turn_of(cell, experiment) else {
             foreign += 1;
             continue;
         };
-        let name = cell.inputs.scene.as_str();
+        let name = cell.inputs.view();
         let index = scenes.iter().position(|(scene, _)| *scene == name).unwrap_or_else(|| {
             scenes.push((name, BTreeMap::new()));
             scenes.len() - 1
@@ -89,10 +89,15 @@ fn scenes(experiment: &Experiment, cells: &[Cell]) -> Result<(Vec<SceneCells>, u
             ));
         }
     }
-    let position = |name: &str| experiment.scenes.iter().position(|scene| is_named(scene, name));
     // Not in the order of the lines: those of merged folders have another one.
-    scenes.sort_by_key(|(name, _)| position(name).unwrap_or(usize::MAX));
-    let scenes = scenes.into_iter().map(|(name, cells)| scene_cells(name, &cells));
+    let cameras = experiment.cameras();
+    scenes.sort_by_key(|(_, cells)| {
+        let Inputs { scene, camera, .. } = first(cells);
+        let scene = experiment.scenes.iter().position(|entry| is_named(entry, scene));
+        let camera = cameras.iter().position(|known| *known == camera.as_deref());
+        (scene.unwrap_or(usize::MAX), camera)
+    });
+    let scenes = scenes.into_iter().map(|(view, cells)| scene_cells(view, &cells));
     Ok((scenes.collect::<Result<_, _>>()?, foreign))
 }
 
@@ -121,10 +126,16 @@ fn profile_of(cell: &Cell, file: &Path) -> Result<Option<Experiment>, Failure> {
 fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
     let inputs = &cell.inputs;
     let Inputs { scene, scene_content, exposure, seed, repetition, .. } = inputs;
+    let seen = Seen {
+        scene,
+        camera: inputs.camera.as_deref(),
+        content: scene_content,
+        exposure: *exposure,
+    };
     let (seed, repetition) = (*seed, *repetition);
     let identity = inputs.identity();
     let variant = experiment.variants.iter().position(|variant| {
-        let asked = Inputs::new(experiment, variant, scene, scene_content, *exposure);
+        let asked = Inputs::new(experiment, variant, seen);
         let references = inputs.references.clone();
         variant.method.id() == inputs.method
             && Inputs { seed, repetition, references, ..asked }.identity() == identity
@@ -137,28 +148,34 @@ fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
         samples.is_some_and(|samples| samples == wanted || (uncounted && samples > wanted))
     });
     let asked = experiment.scale.seeds.contains(&seed)
+        && experiment.cameras().contains(&inputs.camera.as_deref())
         && repetition < experiment.scale.repetitions
         && experiment.exposures.get(scene).is_none_or(|wanted| wanted == exposure);
     let referred = good && inputs.references.len() == experiment.references.len();
     (asked && referred).then_some(Turn { variant, seed, repetition })
 }
 
-fn scene_cells(name: &str, cells: &BTreeMap<Key<'_>, &Cell>) -> Result<SceneCells, String> {
-    let first = &cells.values().next().expect("a scene is there for a cell").inputs;
+fn first<'c>(cells: &BTreeMap<Key<'_>, &'c Cell>) -> &'c Inputs {
+    &cells.values().next().expect("a scene is there for a cell").inputs
+}
+
+fn scene_cells(view: String, cells: &BTreeMap<Key<'_>, &Cell>) -> Result<SceneCells, String> {
+    let first = first(cells);
     let state = |of: &Inputs| (of.scene_content.clone(), of.exposure, of.references.clone());
     if cells.values().any(|cell| state(&cell.inputs) != state(first)) {
         return Err(format!(
-            "cells.jsonl has cells of two states of `{name}` or its references: finish the run"
+            "cells.jsonl has cells of two states of `{view}` or its references: finish the run"
         ));
     }
     let turn = |(&(repetition, seed, variant, _), &cell): (&Key<'_>, &&Cell)| {
         (Turn { variant, seed, repetition }, cell.clone())
     };
     Ok(SceneCells {
-        scene: name.to_owned(),
+        scene: view,
         exposure: first.exposure,
         references: Vec::new(),
         cells: cells.iter().map(turn).collect(),
+        camera: first.camera.clone(),
     })
 }
 
