@@ -60,11 +60,11 @@ pub(crate) struct Medians {
     pub(crate) counters: BTreeMap<String, u64>,
     /// Key of the cell whose picture stands for the row: the first seed's.
     pub(crate) key: String,
-    /// By visibility of the reference; medians over seeds.
+    /// By name of the reference; medians over seeds.
     pub(crate) errors: BTreeMap<String, Comparison>,
-    /// RMSE of sRGB values of each seed, by visibility of the reference.
+    /// RMSE of sRGB values of each seed, by name of the reference.
     pub(crate) seed_rmse: BTreeMap<String, Vec<f64>>,
-    /// By visibility of the reference, where there are two seeds or more.
+    /// By name of the reference, where there are two seeds or more.
     pub(crate) bias: BTreeMap<String, Bias>,
     /// The way to the picture: medians of time, errors of the first seed.
     pub(crate) checkpoints: Vec<Checkpoint>,
@@ -154,9 +154,7 @@ impl Quantity {
     /// Ours.
     pub(crate) fn value(&self, of: &Medians, baseline: Option<&Medians>) -> Option<f64> {
         match self {
-            Self::Error(metric, reference) => {
-                Some((metric.value)(&of.errors[&reference.to_string()].display))
-            }
+            Self::Error(metric, reference) => Some((metric.value)(&of.errors[reference].display)),
             Self::TimeRatio => Some(of.seconds.median / baseline?.seconds.median),
         }
     }

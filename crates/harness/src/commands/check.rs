@@ -97,6 +97,7 @@ fn measure(
     output::check_directory(&cache, "TMPDIR")?;
     let mut session = Session::open(experiment, out, &cache, machine.adapter.as_deref())?;
     let variants: Vec<usize> = (0..experiment.variants.len()).collect();
+    scenes.iter().try_for_each(|scene| session.check_references(scene))?;
     let mut cells = Vec::new();
     for scene in &scenes {
         cells.extend(session.scene(scene, &variants)?.cells.into_iter().map(|(_, cell)| cell));

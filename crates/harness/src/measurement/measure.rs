@@ -5,14 +5,11 @@ use std::time::{Duration, Instant};
 
 use manylights_method::{Error, Frame, Method, Parameters, Progress, Run};
 use manylights_metrics::RadianceImage;
-use manylights_scene::{Transport, Visibility};
 
 /// What came out of a run.
 pub(crate) struct Measured {
     /// The picture.
     pub(crate) image: RadianceImage,
-    /// What was computed.
-    pub(crate) transport: Transport,
     /// Wall clock of `prepare`: pipelines, acceleration structures.
     pub(crate) prepare_seconds: f64,
     /// Wall clock of all steps. Read-back, metrics and files are outside.
@@ -27,27 +24,23 @@ pub(crate) struct Measured {
 /// the run to look at.
 pub(crate) type Look<'l> = &'l mut dyn FnMut(Progress, f64, &mut dyn Run) -> Result<(), Error>;
 
-/// Prepares, steps to the end and resolves. `visibility` replaces that of the frame's transport, where
-/// it has one.
+/// Prepares, steps to the end and resolves.
 ///
 /// # Errors
 /// Those of the method.
 pub(crate) fn measure(
     method: &dyn Method,
     frame: &Frame<'_>,
-    visibility: Visibility,
     parameters: &Parameters,
     look: Look<'_>,
 ) -> Result<Measured, Error> {
-    let transport = with_visibility(frame.transport, visibility);
     let clock = Instant::now();
-    let mut run = method.prepare(&Frame { transport, ..*frame }, parameters)?;
+    let mut run = method.prepare(frame, parameters)?;
     let prepare_seconds = clock.elapsed().as_secs_f64();
     let step_seconds = step_to_the_end(run.as_mut(), look)?.as_secs_f64();
     let image = run.resolve()?;
     Ok(Measured {
         image,
-        transport,
         prepare_seconds,
         step_seconds,
         pass_seconds: run
@@ -69,23 +62,5 @@ fn step_to_the_end(run: &mut dyn Run, look: Look<'_>) -> Result<Duration, Error>
         if progress.finished() {
             return Ok(elapsed);
         }
-    }
-}
-
-/// The visibility in a transport, where it is a choice.
-pub(crate) fn visibility(transport: Transport) -> Option<Visibility> {
-    match transport {
-        Transport::Indirect { bounces: 1, visibility } => Some(visibility),
-        _ => None,
-    }
-}
-
-/// The same transport with another visibility of its last segment, where it has one.
-pub(crate) fn with_visibility(transport: Transport, visibility: Visibility) -> Transport {
-    match transport {
-        Transport::Indirect { bounces: bounces @ 1, .. } => {
-            Transport::Indirect { bounces, visibility }
-        }
-        other => other,
     }
 }

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use manylights_method::{Error, Processor, Run};
 use manylights_metrics::RadianceImage;
-use manylights_path_tracer as path_tracer;
 use manylights_scene::Scene;
 
 use crate::error::Failure;
@@ -18,8 +17,9 @@ use crate::measurement::scene_cells::{SceneCells, image_path};
 use crate::measurement::session::Session;
 use crate::measurement::stage::Stage;
 use crate::progress::Progress;
-use crate::question::experiment::REFERENCE_SEED;
+use crate::question::experiment::Experiment;
 use crate::question::plan::{Turn, Variant, interleaved};
+use crate::question::references::Reference;
 
 /// One scene in the making.
 pub(crate) struct SceneRun<'s, 'a> {
@@ -53,12 +53,13 @@ impl Session<'_> {
     ) -> Result<SceneCells, Failure> {
         let experiment = self.experiment;
         let gpu = self.gpu.clone();
-        let stage = Stage::new(scene, None, experiment.scale.resolution, gpu.as_ref())?;
-        let references = self.references(scene, &stage)?;
+        let Experiment { transport, scale, references, .. } = experiment;
+        let stage = Stage::new(scene, None, *transport, scale.resolution, gpu.as_ref())?;
+        let render = |reference| SceneReference::render(reference, experiment, &stage, self.cache);
+        let references = references.iter().map(render).collect::<Result<Vec<_>, _>>()?;
         for reference in &references {
             reference.write(&scene.name, self.out)?;
         }
-        let scale = &experiment.scale;
         let turns = interleaved(variants, &scale.seeds, scale.repetitions);
         let content = manylights_scene::content_hash(scene, stage.camera);
         let amounts = vec![None; experiment.variants.len()];
@@ -76,18 +77,19 @@ impl Session<'_> {
         Ok(SceneCells { scene: scene.name.clone(), exposure: scene.exposure, references, cells })
     }
 
-    fn references(&self, scene: &Scene, stage: &Stage<'_>) -> Result<Vec<SceneReference>, Failure> {
-        let experiment = self.experiment;
-        let render = |&visibility| {
-            let settings = path_tracer::Settings {
-                transport: measure::with_visibility(experiment.transport, visibility),
-                resolution: experiment.scale.resolution,
-                seed: REFERENCE_SEED,
-                samples: experiment.scale.reference_samples,
-            };
-            SceneReference::render(scene, stage.camera, &settings, visibility, self.cache)
-        };
-        experiment.references.iter().map(render).collect()
+    /// Refuses references that cannot be made of a scene, before anything is rendered: methods that
+    /// decline it, direct light that is not exact.
+    ///
+    /// # Errors
+    /// One line with the reason.
+    pub(crate) fn check_references(&self, scene: &Scene) -> Result<(), Failure> {
+        let Experiment { transport, scale, references, .. } = self.experiment;
+        let only_paths = references.iter().all(Reference::is_path_traced);
+        if only_paths && *transport == transport.estimated() {
+            return Ok(());
+        }
+        let stage = Stage::new(scene, None, *transport, scale.resolution, self.gpu.as_ref())?;
+        references.iter().try_for_each(|reference| SceneReference::check(reference, &stage))
     }
 }
 
@@ -128,10 +130,9 @@ impl SceneRun<'_, '_> {
     }
 
     fn inputs(&self, variant: &Variant, turn: Turn) -> Inputs {
-        let samples =
-            |reference: &SceneReference| (reference.visibility.to_string(), reference.samples);
+        let made = |reference: &SceneReference| (reference.name.clone(), reference.inputs.clone());
         Inputs {
-            references: self.references.iter().map(samples).collect(),
+            references: self.references.iter().map(made).collect(),
             seed: turn.seed,
             repetition: turn.repetition,
             ..Inputs::new(self.session.experiment, self.stage.scene, &self.content, variant)
@@ -182,10 +183,12 @@ impl SceneRun<'_, '_> {
     ) -> Result<Measured, Error> {
         let experiment = self.session.experiment;
         let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
-        let frame = self.stage.frame(experiment.transport, turn.seed);
+        let frame = self.stage.frame(*visibility, turn.seed);
         let set = |amount| parameters.with_count(method.cost_parameter(), amount);
         let parameters = amount.map_or_else(|| parameters.clone(), set);
-        measure::measure(*method, &frame, *visibility, &parameters, look)
+        let mut measured = measure::measure(*method, &frame, &parameters, look)?;
+        measured.image = self.stage.completed(measured.image);
+        Ok(measured)
     }
 
     /// As [`Self::measure`], looked at whenever the work has doubled, where the method is progressive.
@@ -196,7 +199,7 @@ impl SceneRun<'_, '_> {
         let mut look = |progress: manylights_method::Progress, step_seconds, run: &mut dyn Run| {
             if method.is_progressive() && progress.done >= next && !progress.finished() {
                 next = 2 * progress.done;
-                let display_rmse = self.display_rmse(&run.resolve()?)?;
+                let display_rmse = self.display_rmse(turn, run.resolve()?)?;
                 checkpoints.push(Checkpoint { amount: progress.done, step_seconds, display_rmse });
             }
             Ok(())
@@ -205,10 +208,16 @@ impl SceneRun<'_, '_> {
         Ok((measured, checkpoints))
     }
 
-    fn display_rmse(&self, image: &RadianceImage) -> Result<BTreeMap<String, f64>, Error> {
+    fn display_rmse(
+        &self,
+        turn: Turn,
+        estimate: RadianceImage,
+    ) -> Result<BTreeMap<String, f64>, Error> {
+        let image = self.stage.completed(estimate);
         let rmse = |reference: &SceneReference| {
-            let comparison = reference.compare(image).map_err(|e| Error::Failed(e.to_string()))?;
-            Ok((reference.visibility.to_string(), comparison.display.rmse))
+            let comparison = reference.compare(&image, turn.seed);
+            let comparison = comparison.map_err(|error| Error::Failed(error.to_string()))?;
+            Ok((reference.name.clone(), comparison.display.rmse))
         };
         self.references.iter().map(rmse).collect()
     }
@@ -251,19 +260,21 @@ impl SceneRun<'_, '_> {
         measured: Measured,
         checkpoints: Vec<Checkpoint>,
     ) -> Result<Done, manylights_metrics::Error> {
-        let Variant { method, parameters, .. } = &self.session.experiment.variants[turn.variant];
+        let Variant { method, parameters, visibility, .. } =
+            &self.session.experiment.variants[turn.variant];
         let asked = || parameters.count(method.cost_parameter());
         let errors = self
             .references
             .iter()
             .map(|reference| {
-                Ok((reference.visibility.to_string(), reference.compare(&measured.image)?))
+                let comparison = reference.compare(&measured.image, turn.seed)?;
+                Ok((reference.name.clone(), comparison))
             })
             .collect::<Result<_, manylights_metrics::Error>>()?;
         Ok(Done {
             amount: self.amounts[turn.variant].unwrap_or_else(asked),
             checkpoints,
-            visibility: measure::visibility(measured.transport).map(|v| v.to_string()),
+            visibility: self.stage.transport.visibility().map(|_| visibility.to_string()),
             prepare_seconds: measured.prepare_seconds,
             step_seconds: measured.step_seconds,
             pass_seconds: measured.pass_seconds,

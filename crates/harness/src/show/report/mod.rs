@@ -108,6 +108,15 @@ impl Report<'_> {
         times.chain(published).map(|(title, table)| plain_table(&title, &table)).collect()
     }
 
+    /// What pictures are compared with.
+    fn references(&self) -> String {
+        let references = self.experiment.references.iter();
+        let described = references.map(|reference| {
+            format!("{}: {}", reference.name, self.experiment.description(reference))
+        });
+        described.collect::<Vec<_>>().join("; ")
+    }
+
     /// What was run, and where: terms and descriptions.
     fn facts(&self) -> String {
         let Self { experiment, machine, .. } = self;
@@ -127,13 +136,8 @@ impl Report<'_> {
                     scale.seeds.len()
                 ),
             ),
-            (
-                "Light paths",
-                format!(
-                    "{}; references of {} samples a pixel",
-                    experiment.transport, scale.reference_samples
-                ),
-            ),
+            ("Light paths", experiment.transport.to_string()),
+            ("References", self.references()),
             (
                 "Processor",
                 format!("{}, {} threads, {}", machine.cpu, machine.threads, machine.system),
