@@ -358,7 +358,7 @@ seeds = [1]
         assert_eq!(
             described,
             [
-                "many-paths: `reference samples=64` of the same seed",
+                "many-paths: reference samples=64, of the same seed",
                 "traced: path traced, visibility traced, 16 samples a pixel",
             ]
         );

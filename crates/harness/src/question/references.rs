@@ -33,7 +33,7 @@ impl Reference {
                 let chosen = transport.visibility().map(|_| format!(", visibility {visibility}"));
                 format!("path traced{}, {samples} samples a pixel", chosen.unwrap_or_default())
             }
-            Source::Method(variant) => format!("`{}` of the same seed", variant.label()),
+            Source::Method(variant) => format!("{}, of the same seed", variant.label()),
         }
     }
 
