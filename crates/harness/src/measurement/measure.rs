@@ -3,13 +3,17 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use manylights_method::{Error, Frame, Method, Parameters, Progress, Run};
+use manylights_method::{Bake, Error, Frame, Method, Parameters, Progress, Run};
 use manylights_metrics::RadianceImage;
+
+use crate::measurement::bakes::BakeCost;
 
 /// What came out of a run.
 pub(crate) struct Measured {
     /// The picture.
     pub(crate) image: RadianceImage,
+    /// Of what it was baked from.
+    pub(crate) bake: BakeCost,
     /// Wall clock of `prepare`: pipelines, acceleration structures.
     pub(crate) prepare_seconds: f64,
     /// Wall clock of all steps. Read-back, metrics and files are outside.
@@ -24,7 +28,7 @@ pub(crate) struct Measured {
 /// the run to look at.
 pub(crate) type Look<'l> = &'l mut dyn FnMut(Progress, f64, &mut dyn Run) -> Result<(), Error>;
 
-/// Prepares, steps to the end and resolves.
+/// Prepares, with a bake where the method makes one, steps to the end and resolves.
 ///
 /// # Errors
 /// Those of the method.
@@ -32,15 +36,20 @@ pub(crate) fn measure(
     method: &dyn Method,
     frame: &Frame<'_>,
     parameters: &Parameters,
+    bake: Option<(&dyn Bake, BakeCost)>,
     look: Look<'_>,
 ) -> Result<Measured, Error> {
     let clock = Instant::now();
-    let mut run = method.prepare(frame, parameters)?;
+    let mut run = match &bake {
+        Some((bake, _)) => bake.prepare(frame, parameters)?,
+        None => method.prepare(frame, parameters)?,
+    };
     let prepare_seconds = clock.elapsed().as_secs_f64();
     let step_seconds = step_to_the_end(run.as_mut(), look)?.as_secs_f64();
     let image = run.resolve()?;
     Ok(Measured {
         image,
+        bake: bake.map_or_else(BakeCost::default, |(_, cost)| cost),
         prepare_seconds,
         step_seconds,
         pass_seconds: run

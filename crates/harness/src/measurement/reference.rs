@@ -4,6 +4,7 @@ mod files;
 
 use std::path::Path;
 
+use manylights_method::Run;
 use manylights_metrics::{RadianceImage, compare_display, compare_linear};
 use manylights_path_tracer as path_tracer;
 use manylights_scene::{Scene, Visibility};
@@ -120,7 +121,8 @@ impl SceneReference {
         for (done, &seed) in (0..).zip(seeds) {
             progress.set(done, seeds.len() as u64);
             let frame = stage.frame(*visibility, seed);
-            let measured = measure::measure(*method, &frame, parameters, &mut |_, _, _| Ok(()))
+            let all = &mut |_, _: f64, _: &mut dyn Run| Ok(());
+            let measured = measure::measure(*method, &frame, parameters, None, all)
                 .map_err(|error| of_method(scene, reference, error))?;
             pictures.push((seed, stage.completed(measured.image)));
         }

@@ -35,7 +35,7 @@ pub(crate) fn write(
     answer: &SceneAnswer,
     [cache, out]: [&Path; 2],
 ) -> Result<(), Failure> {
-    let parts = parts(experiment, scene, cache)?;
+    let parts = parts(experiment, scene, cells.camera.as_deref(), cache)?;
     let truth = cells.references[0].image();
     for medians in answer.rows.iter().filter_map(|row| row.medians()) {
         let path = image_path(out, &cells.scene, &medians.key);
@@ -58,13 +58,18 @@ pub(crate) fn write(
 type Layer = (&'static str, RadianceImage);
 
 /// The parts that come from the path tracer.
-fn parts(experiment: &Experiment, scene: &Scene, cache: &Path) -> Result<Vec<Layer>, Failure> {
+fn parts(
+    experiment: &Experiment,
+    scene: &Scene,
+    camera: Option<&str>,
+    cache: &Path,
+) -> Result<Vec<Layer>, Failure> {
     if matches!(experiment.transport, Transport::Direct { .. }) {
         return Ok(Vec::new());
     }
-    let mut parts = vec![("direct", render_direct(experiment, scene, cache)?)];
+    let mut parts = vec![("direct", render_direct(experiment, scene, camera, cache)?)];
     if scene.emissive_triangles().next().is_some() {
-        let camera = scene.camera(None).map_err(Failure::input)?;
+        let camera = scene.camera(camera).map_err(Failure::input)?;
         let resolution = experiment.scale.resolution;
         parts.push(("emission", path_tracer::seen_emission(scene, camera, resolution)));
     }
@@ -106,12 +111,13 @@ fn combined(a: &RadianceImage, b: &RadianceImage, f: impl Fn(f32, f32) -> f32) -
 fn render_direct(
     experiment: &Experiment,
     scene: &Scene,
+    camera: Option<&str>,
     cache: &Path,
 ) -> Result<RadianceImage, Failure> {
     let at_scene = |error: &dyn std::fmt::Display| {
         Failure::input(format!("direct light of {}: {error}", scene.name))
     };
-    let camera = scene.camera(None).map_err(|error| at_scene(&error))?;
+    let camera = scene.camera(camera).map_err(|error| at_scene(&error))?;
     // Point-like lights are summed exactly: more samples would give the same picture.
     let is_exact = scene.emissive_triangles().next().is_none();
     let settings = path_tracer::Settings {

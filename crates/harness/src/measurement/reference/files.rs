@@ -16,10 +16,10 @@ impl SceneReference {
     ///
     /// # Errors
     /// One line where a file cannot be written.
-    pub(crate) fn write(&self, scene: &str, out: &Path) -> Result<(), Failure> {
+    pub(crate) fn write(&self, view: &str, out: &Path) -> Result<(), Failure> {
         let made = ("manylights.reference".to_owned(), self.caption.clone());
         let write = |seed, image: &RadianceImage| {
-            let path = path(out, scene, &self.name, seed);
+            let path = path(out, view, &self.name, seed);
             image.write_exr(&path, std::slice::from_ref(&made)).map_err(Failure::input)
         };
         match &self.pictures {
@@ -42,7 +42,7 @@ impl SceneReference {
         out: &Path,
     ) -> Result<Self, Failure> {
         let read = |seed| {
-            let path = path(out, &inputs.scene, &reference.name, seed);
+            let path = path(out, &inputs.view(), &reference.name, seed);
             RadianceImage::read_exr(&path).map_err(Failure::input)
         };
         let made = inputs.references.get(&reference.name).cloned();
@@ -73,7 +73,7 @@ impl SceneReference {
 }
 
 /// The picture of a reference among those of the cells. No name has a dot.
-fn path(out: &Path, scene: &str, name: &str, seed: Option<u64>) -> PathBuf {
+fn path(out: &Path, view: &str, name: &str, seed: Option<u64>) -> PathBuf {
     let seed = seed.map_or_else(String::new, |seed| format!(".seed-{seed}"));
-    out.join("cells").join(format!("{scene}-reference-{name}{seed}.exr"))
+    out.join("cells").join(format!("{view}-reference-{name}{seed}.exr"))
 }
