@@ -9,10 +9,12 @@ use crate::answer::bias::{self, Bias};
 use crate::answer::statistics::{Quartiles, median, paired_difference, quartiles};
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
+use crate::measurement::inputs::ReferenceInputs;
 use crate::measurement::scene_cells::SceneCells;
 use crate::question::experiment::Experiment;
 use crate::question::plan::Turn;
 use crate::question::published::Quantity;
+use crate::question::references::Reference;
 
 /// A scene of the answer.
 pub(crate) struct SceneAnswer {
@@ -20,6 +22,8 @@ pub(crate) struct SceneAnswer {
     pub(crate) scene: String,
     /// One for each variant and machine, in the order of the experiment.
     pub(crate) rows: Vec<Row>,
+    /// What it is compared with, by name.
+    references: BTreeMap<String, ReferenceInputs>,
     /// Index of the variant that ratios refer to.
     baseline: usize,
 }
@@ -109,7 +113,22 @@ impl SceneAnswer {
             Ok::<_, Failure>(Row { variant, machine: machine.to_owned(), result })
         };
         let rows = groups.into_iter().map(row).collect::<Result<_, _>>()?;
-        Ok(Self { scene: scene.scene.clone(), rows, baseline: experiment.baseline })
+        let references = scene.cells.first().map(|(_, cell)| cell.inputs.references.clone());
+        Ok(Self {
+            scene: scene.scene.clone(),
+            rows,
+            references: references.unwrap_or_default(),
+            baseline: experiment.baseline,
+        })
+    }
+
+    /// A reference for headings: who made it, and how.
+    pub(crate) fn description(&self, experiment: &Experiment, reference: &Reference) -> String {
+        let samples = match self.references.get(&reference.name) {
+            Some(ReferenceInputs::Samples(samples)) => *samples,
+            _ => experiment.scale.reference_samples,
+        };
+        reference.description(experiment.transport, samples)
     }
 
     /// The row of the baseline that the same machine ran.
@@ -318,7 +337,9 @@ mod tests {
     fn rows_closer_than_the_floor_share_a_rank() {
         let declined = row_of(3, RowResult::Declined("no".into()));
         let rows = vec![row(0, 0.5), row(1, 0.105), row(2, 0.1), declined, row(4, 0.2)];
-        let ranks = SceneAnswer { scene: "s".into(), rows, baseline: 0 }.ranks("traced");
+        let references = BTreeMap::new();
+        let answer = SceneAnswer { scene: "s".into(), rows, references, baseline: 0 };
+        let ranks = answer.ranks("traced");
         let rank = |place, shared| Some(Rank { place, shared });
         assert_eq!(ranks, [rank(4, false), rank(1, true), rank(1, true), None, rank(3, false)]);
     }

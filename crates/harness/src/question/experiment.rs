@@ -117,11 +117,6 @@ impl Experiment {
             names => names.iter().map(|name| Some(name.as_str())).collect(),
         }
     }
-
-    /// A reference for headings: who makes it, and how.
-    pub(crate) fn description(&self, reference: &Reference) -> String {
-        reference.description(self.transport, self.scale.reference_samples)
-    }
 }
 
 /// How large an experiment is.

@@ -28,8 +28,6 @@ pub(super) fn data(report: &Report<'_>, pictures: &[Pictures<'_>], csv: String) 
         "repetitions": scale.repetitions,
         "reference_samples": scale.reference_samples,
         "references": experiment.references.iter().map(|r| &r.name).collect::<Vec<_>>(),
-        "reference_descriptions": experiment.references.iter()
-            .map(|reference| experiment.description(reference)).collect::<Vec<_>>(),
         "variants": experiment.variants.iter().map(|variant| json!({
             "label": variant.label(),
             "method": variant.method.id(),
@@ -74,6 +72,8 @@ fn scene(
         "factor": pictures.factor,
         "error_scale": pictures.error_scale,
         "left_out": pictures.left_out,
+        "references": experiment.references.iter()
+            .map(|reference| answer.description(experiment, reference)).collect::<Vec<_>>(),
         "floors": experiment.references.iter().filter(|reference| reference.is_path_traced())
             .filter_map(floor).collect::<serde_json::Map<_, _>>(),
         "crops": crops.collect::<Vec<_>>(),

@@ -111,15 +111,6 @@ impl Report<'_> {
         times.chain(published).map(|(title, table)| plain_table(&title, &table)).collect()
     }
 
-    /// What pictures are compared with.
-    fn references(&self) -> String {
-        let references = self.experiment.references.iter();
-        let described = references.map(|reference| {
-            format!("{}: {}", reference.name, self.experiment.description(reference))
-        });
-        described.collect::<Vec<_>>().join("; ")
-    }
-
     /// What was run, and where: terms and descriptions.
     fn facts(&self) -> String {
         let Self { experiment, machine, .. } = self;
@@ -140,7 +131,6 @@ impl Report<'_> {
                 ),
             ),
             ("Light paths", experiment.transport.to_string()),
-            ("References", self.references()),
             (
                 "Processor",
                 format!("{}, {} threads, {}", machine.cpu, machine.threads, machine.system),

@@ -106,7 +106,7 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &Reference) 
         line
     });
     Table {
-        caption: format!("Against {name}: {}", experiment.description(reference)),
+        caption: format!("Against {name}: {}", scene.description(experiment, reference)),
         heading,
         lines: lines.chain(floor).collect(),
     }
