@@ -107,8 +107,42 @@ fn bad_settings_are_refused_before_rendering() {
     ] {
         render_with(change, said);
     }
-    render_with(&["--visibility", "ignored", "--transport", "all"], "needs --transport indirect-1");
-    render_with(&["--visibility", "ignored", "--transport", "indirect-2"], "indirect-1");
+    for transport in ["all", "indirect-2"] {
+        let said = "is a choice of direct, indirect-1 and direct+indirect-1, not of ";
+        render_with(&["--visibility", "ignored", "--transport", transport], said);
+    }
+}
+
+/// Every transport that has a choice takes it, and only exact direct light is added to pictures.
+#[test]
+fn transports_are_rendered_or_refused_with_a_reason() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let render = |transport: &str, visibility: &str| {
+        let out = path(&format!("{transport}-{visibility}.exr"));
+        let arguments = ["render", "--scene", "trio", "--method", "reference", "-o", &out];
+        let more = ["--resolution", "16x16", "--set", "samples=16", "--visibility", visibility];
+        let arguments = [&arguments[..], &more, &["--transport", transport]].concat();
+        succeeded(&manylights(&arguments));
+        RadianceImage::read_exr(Path::new(&out)).expect("a picture")
+    };
+    let sum = |image: &RadianceImage| image.pixels.iter().map(|pixel| pixel[1]).sum::<f32>();
+    for transport in ["direct", "indirect-1", "direct+indirect-1"] {
+        let [traced, ignored] = ["traced", "ignored"].map(|choice| render(transport, choice));
+        assert!(sum(&ignored) > sum(&traced), "{transport}");
+    }
+    let parts = ["direct", "indirect-1"].map(|transport| render(transport, "traced"));
+    let whole = render("direct+indirect-1", "traced");
+    for (index, pixel) in whole.pixels.iter().enumerate() {
+        let [direct, indirect] = parts.each_ref().map(|part| part.pixels[index]);
+        assert_eq!(*pixel, [0, 1, 2].map(|channel| indirect[channel] + direct[channel]));
+    }
+    let lamp = path("lamp.toml");
+    let text = "about = \"a lamp\"\nsource = \"builtin:cornell\"\n[material.white]\n\
+                emission = [1.0, 1.0, 1.0]\n";
+    std::fs::write(&lamp, text).expect("writable");
+    let change = ["--scene", lamp.as_str(), "--transport", "direct+indirect-1"];
+    render_with(&change, "this scene has emissive triangles");
 }
 
 #[test]

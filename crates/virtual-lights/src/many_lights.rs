@@ -166,7 +166,9 @@ impl<'a> ManyLightFrame<'a> {
         let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
         let Frame { scene, camera, transport, seed, gpu, .. } = *frame;
         let Transport::Indirect { bounces: 1, visibility } = transport else {
-            return declined("computes one indirect bounce: use --transport indirect-1");
+            return declined(
+                "computes one indirect bounce: use --transport indirect-1 or direct+indirect-1",
+            );
         };
         if scene.emissive_triangles().next().is_some() {
             return declined("needs point-like primary lights; this scene has emissive triangles");
