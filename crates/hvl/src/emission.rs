@@ -63,7 +63,7 @@ pub fn terms(bands: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 impl EmissionTable {
-    /// Those of [`EmissionTables::shared`].
+    /// The table for a shape and a number of bands, made once in a process: for oracles and tests.
     pub fn of(shape: impl Into<LobeShape>, bands: usize) -> Arc<Self> {
         EmissionTables::shared().get(shape.into(), bands)
     }
