@@ -102,7 +102,8 @@ impl Estimator for Hvl {
             return Err(Error::Declined(reason.into()));
         }
         let shadows = frame.shadows()?;
-        let gather = gather::gather(gpu, pixels, eye, &materials, &settings, shadows)?;
+        let gather =
+            gather::gather(gpu, (on_gpu.surfaces(), pixels), eye, &materials, &settings, shadows)?;
         let products_a_pair = even_count(settings.bands) * materials.channels();
         let products_a_batch = u64::from(pixels) * (CAPACITY * products_a_pair) as u64;
         let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
@@ -129,8 +130,10 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
     let materials = Materials::new(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &materials, settings, None)?;
+    let on_gpu = gpu.storage("surfaces", surfaces)?;
+    let gather =
+        gather::gather(gpu, (&on_gpu, surfaces.len() as u32), camera, &materials, settings, None)?;
     let batches = gather::batches(&gather, lights, &materials, settings)?;
-    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
+    gather.add(&batches, 0..batches.count())?;
     gather.radiance()
 }
