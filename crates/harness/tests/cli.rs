@@ -5,7 +5,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{json, manylights, refused, succeeded, write_image};
+use common::{json, manylights, manylights_within, refused, succeeded, write_image};
 use manylights_metrics::RadianceImage;
 
 #[test]
@@ -206,6 +206,24 @@ fn the_adapter_is_opened_only_where_a_method_needs_it() {
 }
 
 #[test]
+fn the_adapter_is_opened_with_the_limits_asked_for() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let out = folder.path().join("out.exr");
+    let out = out.to_str().expect("UTF-8");
+    for (limits, resolution, said) in [
+        ("webgl", "16x16", "MANYLIGHTS_LIMITS=webgl: set it to `default`"),
+        ("default", "8193x1", "under MANYLIGHTS_LIMITS=default allows 8192"),
+    ] {
+        let arguments = ["render", "--scene", "cornell", "--method", "vpl", "-o", out];
+        let arguments = [&arguments[..], &["--resolution", resolution]].concat();
+        let output = manylights_within(limits, &arguments);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{errors}");
+        assert!(errors.lines().count() == 1 && errors.contains(said), "{errors}");
+    }
+}
+
+#[test]
 fn metrics_of_two_pictures() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let dark = write_image(folder.path(), "dark.exr", [16, 12], 0.25);
@@ -242,5 +260,14 @@ fn metrics_refuse_what_cannot_be_compared() {
     refused(&["metrics", &good, &larger], "16×12");
     refused(&["metrics", &broken, &good], "not finite");
     refused(&["metrics", &tiny, &tiny], "11×11");
+    let elsewhere = folder.path().join("elsewhere.exr");
+    let mut bytes = std::fs::read(&good).expect("readable");
+    let window = b"displayWindow\0box2i\0\x10\0\0\0";
+    let at = bytes.windows(window.len()).position(|part| part == window).expect("is required");
+    // Its right end: a wider frame.
+    bytes[at + window.len() + 8] += 1;
+    std::fs::write(&elsewhere, bytes).expect("writable");
+    let elsewhere = elsewhere.to_str().expect("UTF-8");
+    refused(&["metrics", elsewhere, &good], "of a frame of 17×12 pixels");
     refused(&["metrics", &good, &good, "--exposure", "0"], "exposure");
 }

@@ -10,6 +10,7 @@ mod lobe_quadrature;
 mod lobe_shape;
 pub mod lobe_wgsl;
 pub mod lobes;
+mod tables;
 pub mod zonal;
 
 pub use cache::Cache;
@@ -17,6 +18,7 @@ pub use expansion::{Damping, Form};
 pub use lobe_quadrature::{Fixed, LobeQuadrature};
 pub use lobe_shape::LobeShape;
 pub use lobe_wgsl::LOBES;
+pub use tables::Tables;
 
 /// The table of shapes that [`RECEIVER`] reads, of `vec2f`, as it imports it from `package::bindings`.
 pub const SHAPES: &str = "shapes";
