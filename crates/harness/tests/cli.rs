@@ -5,7 +5,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{json, manylights, refused, succeeded, write_image};
+use common::{json, manylights, manylights_within, refused, succeeded, write_image};
 use manylights_metrics::RadianceImage;
 
 #[test]
@@ -236,6 +236,24 @@ fn the_adapter_is_opened_only_where_a_method_needs_it() {
         } else {
             succeeded(&manylights(&arguments));
         }
+    }
+}
+
+#[test]
+fn the_adapter_is_opened_with_the_limits_asked_for() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let out = folder.path().join("out.exr");
+    let out = out.to_str().expect("UTF-8");
+    for (limits, resolution, said) in [
+        ("webgl", "16x16", "MANYLIGHTS_LIMITS=webgl: set it to `default`"),
+        ("default", "8193x1", "under MANYLIGHTS_LIMITS=default allows 8192"),
+    ] {
+        let arguments = ["render", "--scene", "cornell", "--method", "vpl", "-o", out];
+        let arguments = [&arguments[..], &["--resolution", resolution]].concat();
+        let output = manylights_within(limits, &arguments);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{errors}");
+        assert!(errors.lines().count() == 1 && errors.contains(said), "{errors}");
     }
 }
 

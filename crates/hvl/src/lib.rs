@@ -103,7 +103,8 @@ impl Estimator for Hvl {
         let gpu = on_gpu.gpu();
         let materials = Materials::of_scene(scene);
         let (shadows, tables) = (frame.shadows()?, tables.on_gpu.clone());
-        let gather = gather::gather(gpu, pixels, eye, &materials, tables, &settings, shadows)?;
+        let surfaces = (on_gpu.surfaces(), pixels);
+        let gather = gather::gather(gpu, surfaces, eye, &materials, tables, &settings, shadows)?;
         let products_a_pair = even_count(settings.bands) * materials.channels();
         let products_a_batch = u64::from(pixels) * (CAPACITY * products_a_pair) as u64;
         let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
@@ -155,9 +156,10 @@ pub fn gather(
     let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
     let materials = Materials::new(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
     let tables = materials.tables(gpu, settings, (Tables::shared(), EmissionTables::shared()))?;
-    let pixels = surfaces.len() as u32;
-    let gather = gather::gather(gpu, pixels, camera, &materials, tables, settings, None)?;
+    let on_gpu = gpu.storage("surfaces", surfaces)?;
+    let surfaces = (&on_gpu, surfaces.len() as u32);
+    let gather = gather::gather(gpu, surfaces, camera, &materials, tables, settings, None)?;
     let batches = gather::batches(&gather, lights, &materials, settings)?;
-    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
+    gather.add(&batches, 0..batches.count())?;
     gather.radiance()
 }
