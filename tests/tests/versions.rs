@@ -138,7 +138,7 @@ fn of_shaders() -> Sketch {
     let (lights, _) = distribute(&stage.on_gpu, &stage.scene, 64, 1).expect("lights");
     let centers: Vec<_> = lights.iter().map(Into::into).collect();
     let shadows = Shadows::new(&stage.on_gpu, &stage.scene).expect("the hierarchy fits");
-    let hidden = shadows.hidden_lights(&stage.on_gpu, &centers).expect("a pass");
+    let hidden = shadows.hidden_lights(&centers).expect("a pass");
     let dark = hidden.chunks(surfaces.len()).map(|pixels| {
         pixels.iter().filter(|hidden| **hidden).count() as f64 / surfaces.len() as f64
     });

@@ -7,15 +7,19 @@
 
 mod batches;
 mod buffer;
+mod clock;
 mod device;
 mod error;
 mod frame;
 mod kernel;
+mod limits;
 mod link;
 mod occluders;
 mod operations;
+mod pass;
 mod pipeline;
-mod pixel_pass;
+mod point_bindings;
+mod point_pass;
 mod projection;
 mod raster;
 mod reflectances;
@@ -23,6 +27,7 @@ mod report;
 mod scene_buffers;
 mod shadows;
 mod surface;
+mod timestamps;
 
 /// Of what the shared shaders and passes of this crate compute (G-buffer, reflectance, shadow rays):
 /// raised whenever the same scene gives other numbers.
@@ -33,11 +38,13 @@ pub use buffer::Buffer;
 pub use device::Gpu;
 pub use error::Error;
 pub use frame::GpuFrame;
-pub use kernel::{Dispatch, PassTime, Resource};
+pub use limits::Limits;
 pub use link::{Feature, Module, link};
 pub use operations::{Operations, operations};
+pub use pass::{Dispatch, Pass, PassTime, Resource};
 pub use pipeline::{Binding, Kernel};
-pub use pixel_pass::workgroups;
+pub use point_bindings::{PointBindings, Table};
+pub use point_pass::{PointPass, workgroups};
 pub use projection::Projection;
 pub use reflectances::Reflectances;
 pub use report::AdapterReport;

@@ -189,6 +189,6 @@ fn exact_pictures_have_no_ratio_of_errors() {
     let rows: Vec<&str> = markdown.lines().filter(|line| line.contains("| reference ")).collect();
     assert_eq!(rows.len(), 2, "{markdown}");
     for row in rows {
-        assert!(row.contains("| 0 | - |") && !row.contains('≈'), "{row}");
+        assert!(row.contains("| 0 | — |") && !row.contains('≈'), "{row}");
     }
 }

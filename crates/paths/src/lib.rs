@@ -6,6 +6,7 @@
 
 mod beams;
 mod emitters;
+mod illumination;
 mod lobe;
 mod sampler;
 mod tracer;

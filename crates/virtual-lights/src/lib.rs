@@ -4,6 +4,7 @@
 //! [`VirtualLights`] makes a [`Method`](manylights_method::Method) of an [`Estimator`].
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
+mod gather_shader;
 mod light_gather;
 mod lit_texels;
 mod many_lights;
@@ -17,6 +18,7 @@ mod virtual_sphere;
 /// seed and count give other ones.
 pub const PLACEMENT_VERSION: u32 = 1;
 
+pub use gather_shader::{EstimatorShader, GatherShader, PixelsALane};
 pub use light_gather::{LightBatches, LightGather, Lights};
 pub use lit_texels::{LIT_TEXEL, LitTexel, LitTexels, lit_texels};
 pub use many_lights::{

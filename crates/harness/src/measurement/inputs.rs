@@ -8,6 +8,7 @@ use crate::measurement::provenance::{Provenance, sha256};
 use crate::measurement::versions::Versions;
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Bounded, Budget, Variant};
+use crate::question::references::{Reference, Source};
 use crate::registry;
 
 /// What decides the picture and its errors, and where its time was taken.
@@ -42,8 +43,48 @@ pub(crate) struct Inputs {
     pub(crate) resolution: [u32; 2],
     /// Factor from radiance to display-referred values.
     pub(crate) exposure: f32,
-    /// The references that it is compared with: samples a pixel by visibility.
-    pub(crate) references: BTreeMap<String, u32>,
+    /// The references that it is compared with, by name.
+    pub(crate) references: BTreeMap<String, ReferenceInputs>,
+}
+
+/// What a reference depends on, beside all that it shares with the cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum ReferenceInputs {
+    /// Path traced with the visibility that names it: samples a pixel.
+    Samples(u32),
+    /// By another method, with the seed of the cell.
+    Method {
+        /// Its id.
+        method: String,
+        /// Its parameters.
+        parameters: BTreeMap<String, f64>,
+        /// Visibility of the last segment, where it is not the method's own.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        asked_visibility: Option<String>,
+    },
+}
+
+impl ReferenceInputs {
+    /// As asked for.
+    pub(crate) fn new(reference: &Reference, samples: u32) -> Self {
+        match &reference.source {
+            Source::Paths(_) => Self::Samples(samples),
+            Source::Method(variant) => Self::Method {
+                method: variant.method.id().to_owned(),
+                parameters: variant.given(),
+                asked_visibility: variant.unusual_visibility().map(|chosen| chosen.to_string()),
+            },
+        }
+    }
+
+    /// Whether a reference of these inputs is what was `asked` for, or better: more samples are.
+    pub(crate) fn serves(&self, asked: &Self) -> bool {
+        match (self, asked) {
+            (Self::Samples(samples), Self::Samples(asked)) => samples >= asked,
+            _ => self == asked,
+        }
+    }
 }
 
 /// What a picture is of.
@@ -81,7 +122,11 @@ impl Inputs {
             asked_visibility: variant.unusual_visibility().map(|visibility| visibility.to_string()),
             resolution: experiment.scale.resolution,
             exposure,
-            references: experiment.references.iter().map(|v| (v.to_string(), samples)).collect(),
+            references: experiment
+                .references
+                .iter()
+                .map(|reference| (reference.name.clone(), ReferenceInputs::new(reference, samples)))
+                .collect(),
         }
     }
 
@@ -89,12 +134,11 @@ impl Inputs {
     /// from before, where the other has them at the value that stands for that.
     pub(crate) fn identity(&self) -> String {
         let mut essential = self.clone();
-        if let Ok(method) = registry::method(&self.method) {
-            let infos = method.parameters();
-            essential.parameters.retain(|name, value| {
-                let info = infos.iter().find(|info| info.name == name);
-                !info.is_some_and(|info| info.is_as_before(*value))
-            });
+        leave_out_as_before(&self.method, &mut essential.parameters);
+        for reference in essential.references.values_mut() {
+            if let ReferenceInputs::Method { method, parameters, .. } = reference {
+                leave_out_as_before(method, parameters);
+            }
         }
         serde_json::to_string(&essential).expect("inputs are plain data")
     }
@@ -147,4 +191,11 @@ pub(crate) fn view(scene: &str, camera: Option<&str>) -> String {
         || scene.to_owned(),
         |camera| format!("{scene}-{}", camera.chars().map(safe).collect::<String>()),
     )
+}
+
+/// Drops the parameters of a method that a result from before they were introduced lacks.
+fn leave_out_as_before(method: &str, parameters: &mut BTreeMap<String, f64>) {
+    let Ok(method) = registry::method(method) else { return };
+    let info = |name: &str| method.parameters().iter().find(|info| info.name == name);
+    parameters.retain(|name, value| !info(name).is_some_and(|info| info.is_as_before(*value)));
 }

@@ -5,14 +5,13 @@ use std::path::PathBuf;
 
 use manylights_method::{Error, Processor, Run};
 use manylights_metrics::RadianceImage;
-use manylights_path_tracer as path_tracer;
 use manylights_scene::Scene;
 
 use crate::error::Failure;
 use crate::measurement::bakes::SceneHashes;
-use crate::measurement::cell::{Cell, Checkpoint, Done, Outcome, image_sha256};
+use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome, image_sha256};
 use crate::measurement::inputs::{self, Inputs, Seen};
-use crate::measurement::measure::{self, Measured};
+use crate::measurement::measure::Measured;
 use crate::measurement::pictures::image_path;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
@@ -21,15 +20,16 @@ use crate::measurement::session::Session;
 use crate::measurement::stage::Stage;
 use crate::measurement::versions;
 use crate::progress::Progress;
-use crate::question::experiment::REFERENCE_SEED;
+use crate::question::experiment::Experiment;
 use crate::question::plan::{Turn, Variant, interleaved};
+use crate::question::references::Reference;
 
 /// One scene, seen by one camera, in the making.
 pub(crate) struct SceneRun<'s, 'a> {
     /// What all scenes share.
     pub(crate) session: &'s mut Session<'a>,
     /// The scene, ready.
-    pub(crate) stage: Stage<'s>,
+    pub(crate) stage: &'s Stage<'s>,
     /// Index into the experiment's cameras.
     pub(crate) camera: usize,
     /// Scene and camera, for people and files.
@@ -65,8 +65,8 @@ impl Session<'_> {
         let name = experiment.cameras()[camera];
         let view = inputs::view(&scene.name, name);
         let gpu = self.gpu.clone();
-        let stage = Stage::new(scene, name, experiment.scale.resolution, gpu.as_ref())?;
-        let scale = &experiment.scale;
+        let Experiment { transport, scale, .. } = experiment;
+        let stage = Stage::new(scene, name, *transport, scale.resolution, gpu.as_ref())?;
         let turns = interleaved(variants, &scale.seeds, scale.repetitions);
         let content = manylights_scene::content_hash(scene, stage.camera);
         let hashes = SceneHashes::new(scene);
@@ -78,7 +78,7 @@ impl Session<'_> {
         let references;
         let mut run = SceneRun {
             session: self,
-            stage,
+            stage: &stage,
             camera,
             view: view.clone(),
             content,
@@ -91,9 +91,13 @@ impl Session<'_> {
         references = match run.kept_references(&turns) {
             Some(kept) => kept,
             None => {
-                let references = run.session.references(scene, &run.stage)?;
-                references.iter().try_for_each(|it| it.write(&view, run.session.out))?;
-                references
+                let cache = run.session.cache;
+                let render =
+                    |reference| SceneReference::render(reference, experiment, &stage, cache);
+                let rendered: Vec<SceneReference> =
+                    experiment.references.iter().map(render).collect::<Result<_, _>>()?;
+                rendered.iter().try_for_each(|it| it.write(&view, run.session.out))?;
+                rendered
             }
         };
         run.references = &references;
@@ -103,18 +107,24 @@ impl Session<'_> {
         Ok(SceneCells { scene: view, camera, exposure: scene.exposure, references, cells })
     }
 
-    fn references(&self, scene: &Scene, stage: &Stage<'_>) -> Result<Vec<SceneReference>, Failure> {
-        let experiment = self.experiment;
-        let render = |&visibility| {
-            let settings = path_tracer::Settings {
-                transport: measure::with_visibility(experiment.transport, visibility),
-                resolution: experiment.scale.resolution,
-                seed: REFERENCE_SEED,
-                samples: experiment.scale.reference_samples,
-            };
-            SceneReference::render(scene, stage.camera, &settings, visibility, self.cache)
-        };
-        experiment.references.iter().map(render).collect()
+    /// Refuses references that cannot be made of a scene, before anything is rendered: methods that
+    /// decline it, direct light that is not exact.
+    ///
+    /// # Errors
+    /// One line with the reason.
+    pub(crate) fn check_references(&self, scene: &Scene) -> Result<(), Failure> {
+        let Experiment { transport, scale, references, .. } = self.experiment;
+        let only_paths = references.iter().all(Reference::is_path_traced);
+        if only_paths && *transport == transport.estimated() {
+            return Ok(());
+        }
+        for camera in self.experiment.cameras() {
+            let gpu = self.gpu.as_ref();
+            let stage = Stage::new(scene, camera, *transport, scale.resolution, gpu)?;
+            let check = |reference| SceneReference::check(reference, &stage);
+            references.iter().try_for_each(check)?;
+        }
+        Ok(())
     }
 }
 
@@ -133,7 +143,7 @@ impl SceneRun<'_, '_> {
             let variant = &experiment.variants[turn.variant];
             let inputs = self.inputs(variant, turn);
             let provenance = self.provenance(variant).clone();
-            let versions = versions::of(variant.method);
+            let versions = versions::of(variant.method, &experiment.references);
             let key = inputs.key(&versions, &provenance);
             self.recall_amount(turn.variant, &inputs, &provenance);
             if let Some(cell) = self.finished(&key, turn) {
@@ -164,11 +174,12 @@ impl SceneRun<'_, '_> {
             let inputs = self.inputs(variant, turn);
             let provenance = self.provenance(variant).clone();
             self.recall_amount(turn.variant, &inputs, &provenance);
-            let key = inputs.key(&versions::of(variant.method), &provenance);
+            let key =
+                inputs.key(&versions::of(variant.method, &experiment.references), &provenance);
             cells.push((turn, self.finished(&key, turn)?));
         }
         let out = self.session.out;
-        let kept = |&visibility| SceneReference::read(visibility, &cells, out).ok();
+        let kept = |reference| SceneReference::read(reference, experiment, &cells, out).ok();
         experiment.references.iter().map(kept).collect()
     }
 
@@ -225,13 +236,17 @@ impl SceneRun<'_, '_> {
         turn: Turn,
     ) -> Result<(Measured, Vec<Checkpoint>), Error> {
         let method = self.session.experiment.variants[turn.variant].method;
-        let references = self.references;
+        let (stage, references) = (self.stage, self.references);
         let mut checkpoints = Vec::new();
         let mut next = 1;
         let mut look = |progress: manylights_method::Progress, step_seconds, run: &mut dyn Run| {
             if method.is_progressive() && progress.done >= next && !progress.finished() {
                 next = 2 * progress.done;
-                let display_rmse = display_rmse(references, &run.resolve()?)?;
+                let image = stage.completed(run.resolve()?);
+                let errors = compare(references, &image, turn.seed)
+                    .map_err(|error| Error::Failed(error.to_string()))?;
+                let rmse = |(name, errors): (String, Comparison)| (name, errors.display.rmse);
+                let display_rmse = errors.into_iter().map(rmse).collect();
                 checkpoints.push(Checkpoint { amount: progress.done, step_seconds, display_rmse });
             }
             Ok(())
@@ -283,19 +298,14 @@ impl SceneRun<'_, '_> {
         measured: Measured,
         checkpoints: Vec<Checkpoint>,
     ) -> Result<Done, manylights_metrics::Error> {
-        let Variant { method, parameters, .. } = &self.session.experiment.variants[turn.variant];
+        let Variant { method, parameters, visibility, .. } =
+            &self.session.experiment.variants[turn.variant];
         let asked = || parameters.count(method.cost_parameter());
-        let errors = self
-            .references
-            .iter()
-            .map(|reference| {
-                Ok((reference.visibility.to_string(), reference.compare(&measured.image)?))
-            })
-            .collect::<Result<_, manylights_metrics::Error>>()?;
+        let errors = compare(self.references, &measured.image, turn.seed)?;
         Ok(Done {
             amount: self.amounts[turn.variant].unwrap_or_else(asked),
             checkpoints,
-            visibility: measure::visibility(measured.transport).map(|v| v.to_string()),
+            visibility: self.stage.transport.visibility().map(|_| visibility.to_string()),
             bake_shared: self.session.bakes.tell(&measured.bake),
             bake_seconds: measured.bake.seconds,
             bake_pass_seconds: measured.bake.pass_seconds,
@@ -331,15 +341,15 @@ impl SceneRun<'_, '_> {
     }
 }
 
-fn display_rmse(
+/// Errors of a picture of this seed, by name of the reference.
+fn compare(
     references: &[SceneReference],
     image: &RadianceImage,
-) -> Result<BTreeMap<String, f64>, Error> {
-    let rmse = |reference: &SceneReference| {
-        let comparison = reference.compare(image).map_err(|e| Error::Failed(e.to_string()))?;
-        Ok((reference.visibility.to_string(), comparison.display.rmse))
-    };
-    references.iter().map(rmse).collect()
+    seed: u64,
+) -> Result<BTreeMap<String, Comparison>, manylights_metrics::Error> {
+    let errors =
+        |reference: &SceneReference| Ok((reference.name.clone(), reference.compare(image, seed)?));
+    references.iter().map(errors).collect()
 }
 
 /// Whether a repetition gave other bits than the first run of the same cell.

@@ -7,6 +7,7 @@ use manylights_metrics::Errors;
 
 use crate::error::one_line;
 use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
+use crate::measurement::inputs::ReferenceInputs;
 use crate::question::plan::Budget;
 use crate::question::settings;
 
@@ -26,7 +27,7 @@ pub(crate) fn check(cell: &Cell) -> Result<(), String> {
     let hashes = [("key", key), ("scene_content", &inputs.scene_content)];
     hashes.into_iter().try_for_each(|(name, text)| hash(name, text))?;
     // They become part of the names of files.
-    for name in inputs.camera.iter().chain([&inputs.scene]) {
+    for name in inputs.camera.iter().chain([&inputs.scene]).chain(inputs.references.keys()) {
         if name.is_empty() || name.contains(['/', '\\']) || is_broken(name) {
             return Err(format!("`{}` is not a name", one_line(name)));
         }
@@ -48,7 +49,7 @@ pub(crate) fn check(cell: &Cell) -> Result<(), String> {
     }
 }
 
-fn check_done(done: &Done, references: &BTreeMap<String, u32>) -> Result<(), String> {
+fn check_done(done: &Done, references: &BTreeMap<String, ReferenceInputs>) -> Result<(), String> {
     within("bake_seconds", done.bake_seconds, 0.0, MOST_SECONDS)?;
     within("prepare_seconds", done.prepare_seconds, 0.0, MOST_SECONDS)?;
     within("step_seconds", done.step_seconds, f64::MIN_POSITIVE, MOST_SECONDS)?;
@@ -167,7 +168,7 @@ pub(crate) mod tests {
             asked_visibility: None,
             resolution: [16, 16],
             exposure: 1.0,
-            references: BTreeMap::from([("traced".into(), 32)]),
+            references: BTreeMap::from([("traced".into(), ReferenceInputs::Samples(32))]),
         };
         let outcome = Outcome::Done(Box::new(done));
         Cell::new(inputs, outcome, Versions::new(), Provenance::here(None))

@@ -17,9 +17,11 @@ impl SceneRun<'_, '_> {
         amount: Option<u64>,
         look: Look<'_>,
     ) -> Result<Measured, Error> {
-        self.with_bake(turn, amount, false, |method, frame, parameters, bake| {
-            measure::measure(method, frame, parameters, bake, look)
-        })
+        let mut measured = self.with_bake(turn, amount, false, |method, frame, set, bake| {
+            measure::measure(method, frame, set, bake, look)
+        })?;
+        measured.image = self.stage.completed(measured.image);
+        Ok(measured)
     }
 
     /// What a bake takes that is made for this alone; nothing where the method makes none.
@@ -49,10 +51,9 @@ impl SceneRun<'_, '_> {
     ) -> Result<T, Error> {
         let Session { experiment, bakes, gpu, .. } = &mut *self.session;
         let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
-        let transport = measure::with_visibility(experiment.transport, *visibility);
         let set = |amount| parameters.with_count(method.cost_parameter(), amount);
         let parameters = &amount.map_or_else(|| parameters.clone(), set);
-        let frame = self.stage.frame(transport, turn.seed);
+        let frame = self.stage.frame(*visibility, turn.seed);
         let Some(baking) = method.baking() else { return call(*method, &frame, parameters, None) };
         let origin = Origin {
             scene: self.hashes.clone(),
@@ -69,9 +70,10 @@ impl SceneRun<'_, '_> {
                 return bake(&frame);
             }
             let name = experiment.cameras()[place];
-            let stage = Stage::new(frame.scene, name, frame.resolution, gpu.as_ref());
+            let (transport, resolution) = (frame.transport, frame.resolution);
+            let stage = Stage::new(frame.scene, name, transport, resolution, gpu.as_ref());
             let stage = stage.map_err(|failure| Error::Failed(failure.to_string()))?;
-            bake(&stage.frame(transport, turn.seed))
+            bake(&stage.frame(*visibility, turn.seed))
         })?;
         call(*method, &frame, parameters, Some(bake))
     }

@@ -13,12 +13,14 @@ use manylights_path_tracer::REFERENCE_VERSION;
 use manylights_reflectance::TABLES_VERSION;
 use manylights_virtual_lights::PLACEMENT_VERSION;
 
+use crate::question::references::{Reference, Source};
+
 /// Versions by name. Of a cell from before they were counted there are none.
 pub(crate) type Versions = BTreeMap<String, u32>;
 
-/// Those that a cell of `method` depends on. On the adapter these are all shared stages, whether or not
+/// Those that a cell of `method` depends on, with the methods that are its references. On the adapter these are all shared stages, whether or not
 /// the method uses them: a cell that runs again needlessly costs minutes, one that does not is wrong.
-pub(crate) fn of(method: &dyn Method) -> Versions {
+pub(crate) fn of(method: &dyn Method, references: &[Reference]) -> Versions {
     let everywhere = [
         ("method", method.version()),
         ("metrics", METRICS_VERSION),
@@ -29,9 +31,16 @@ pub(crate) fn of(method: &dyn Method) -> Versions {
         ("shaders", SHADERS_VERSION),
         ("tables", TABLES_VERSION),
     ];
-    let shared = match method.processor() {
-        Processor::Cpu => &[][..],
-        Processor::Gpu => &on_adapter[..],
+    let judges = references.iter().filter_map(|reference| match &reference.source {
+        Source::Paths(_) => None,
+        Source::Method(variant) => Some((reference.name.as_str(), variant.method)),
+    });
+    let processors = judges.clone().map(|(_, judge)| judge.processor());
+    let shared = match processors.chain([method.processor()]).any(|it| it == Processor::Gpu) {
+        true => &on_adapter[..],
+        false => &[][..],
     };
-    everywhere.iter().chain(shared).map(|&(name, version)| (name.to_owned(), version)).collect()
+    let judges = judges.map(|(name, judge)| (format!("reference {name}"), judge.version()));
+    let own = everywhere.iter().chain(shared).map(|&(name, version)| (name.to_owned(), version));
+    own.chain(judges).collect()
 }

@@ -15,10 +15,9 @@ pub(crate) fn short(value: f64) -> String {
     format!("{rounded:.*}", digits.max(0) as usize)
 }
 
-/// A number as a multiple of another; nothing is one of zero.
-pub(crate) fn ratio(of: f64, base: f64) -> String {
-    let ratio = of / base;
-    if ratio.is_finite() { short(ratio) } else { "-".to_owned() }
+/// How many times `base` a value is, as [`short`]; a dash where the base is nothing.
+pub(crate) fn ratio(value: f64, base: f64) -> String {
+    if base == 0.0 { "—".to_owned() } else { short(value / base) }
 }
 
 /// Milliseconds of a time in seconds.
@@ -36,7 +35,7 @@ mod tests {
         assert_eq!(texts, ["0", "0.0123", "1.00", "98.8", "1230", "1.50e7", "2.00e-6", "-0.500"]);
         assert_eq!([0.099_999, 0.1, 999.9].map(short), ["0.100", "0.100", "1000"]);
         assert_eq!(short(f64::INFINITY), "inf");
+        assert_eq!([ratio(3.0, 2.0), ratio(0.0, 0.0), ratio(1.0, 0.0)], ["1.50", "—", "—"]);
         assert_eq!(milliseconds(0.0125), "12.5");
-        assert_eq!([ratio(0.0, 0.0), ratio(1.0, 0.0), ratio(1.0, 2.0)], ["-", "-", "0.500"]);
     }
 }

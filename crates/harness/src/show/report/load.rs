@@ -7,7 +7,7 @@ use clap::ValueEnum;
 
 use crate::error::Failure;
 use crate::measurement::cell::Cell;
-use crate::measurement::inputs::{Inputs, Seen};
+use crate::measurement::inputs::{Inputs, ReferenceInputs, Seen};
 use crate::measurement::lines;
 use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::SceneCells;
@@ -47,7 +47,8 @@ pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
         say(format_args!("{place}: {foreign} cells of other questions or profiles are left out"));
     }
     for scene in &mut scenes {
-        let read = |&visibility| SceneReference::read(visibility, &scene.cells, directory);
+        let read =
+            |reference| SceneReference::read(reference, &experiment, &scene.cells, directory);
         scene.references = experiment.references.iter().map(read).collect::<Result<_, _>>()?;
     }
     Ok(Loaded { experiment, scenes })
@@ -142,10 +143,10 @@ fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
     })?;
     // Before versions were counted, a cache decided: it gave what was asked for, or better.
     let uncounted = cell.versions.is_empty();
-    let names = experiment.references.iter().map(ToString::to_string);
-    let good = names.map(|name| inputs.references.get(&name).copied()).all(|samples| {
-        let wanted = experiment.scale.reference_samples;
-        samples.is_some_and(|samples| samples == wanted || (uncounted && samples > wanted))
+    let good = experiment.references.iter().all(|reference| {
+        let asked = ReferenceInputs::new(reference, experiment.scale.reference_samples);
+        let made = inputs.references.get(&reference.name);
+        made.is_some_and(|made| *made == asked || (uncounted && made.serves(&asked)))
     });
     let asked = experiment.scale.seeds.contains(&seed)
         && experiment.cameras().contains(&inputs.camera.as_deref())

@@ -130,14 +130,7 @@ impl Report<'_> {
                     scale.seeds.len()
                 ),
             ),
-            (
-                "Light paths",
-                format!(
-                    "{}; references of {}",
-                    experiment.transport,
-                    table::reference_samples(self.answers)
-                ),
-            ),
+            ("Light paths", experiment.transport.to_string()),
             (
                 "Processor",
                 format!("{}, {} threads, {}", machine.cpu, machine.threads, machine.system),

@@ -11,7 +11,7 @@ pub(crate) fn latex(
     scenes: &[SceneAnswer],
     machine: &Provenance,
 ) -> String {
-    let [scale, program] = head(experiment, scenes, machine);
+    let [scale, program] = head(experiment, machine);
     let mut text = format!(
         "% {}\n% {scale}\n% {program}\n% Needs \\usepackage{{booktabs,textcomp}} and UTF-8 input.\n",
         experiment.title.replace('\n', " ")
@@ -75,6 +75,7 @@ fn escaped(text: &str) -> String {
             '≤' => escaped.push_str("$\\le$"),
             '×' => escaped.push_str("$\\times$"),
             '–' => escaped.push_str("--"),
+            '—' => escaped.push_str("---"),
             other => escaped.push(other),
         }
     }

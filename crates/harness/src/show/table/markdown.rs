@@ -11,7 +11,7 @@ pub(crate) fn markdown(
     scenes: &[SceneAnswer],
     machine: &Provenance,
 ) -> String {
-    let [scale, program] = head(experiment, scenes, machine);
+    let [scale, program] = head(experiment, machine);
     let Experiment { title, question, .. } = experiment;
     let mut text = format!("# {title}\n\n{question}\n\n{scale}\n{program}\n");
     for scene in scenes {
