@@ -20,7 +20,7 @@ fn light() -> VirtualLight {
     VirtualLight {
         position: PLACE,
         geometric_normal: Vec3::new(0.1, -1.0, 0.3).normalize(),
-        normal: Vec3::new(-0.5, -1.0, 0.1).normalize(),
+        normal: Vec3::new(-0.9, -1.0, 0.8).normalize(),
         incoming: Vec3::new(0.2, -1.0, 0.5).normalize(),
         flux: Vec3::new(3.0, 2.0, 1.0),
         brdf: Brdf::lambert(Vec3::splat(ALBEDOS[0])),
