@@ -3,7 +3,8 @@
 use glam::Vec3;
 use manylights_gpu::{GpuFrame, Shadows};
 use manylights_method::{
-    Error, Frame, Method, ParameterInfo, Parameters, PassTime, Processor, Progress, Run,
+    CounterInfo, Error, Frame, Method, ParameterInfo, Parameters, PassTime, Processor, Progress,
+    Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Transport, Visibility};
@@ -51,6 +52,10 @@ impl<M: Estimator> Method for VirtualLights<M> {
 
     fn parameters(&self) -> &'static [ParameterInfo] {
         M::PARAMETERS
+    }
+
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[CounterInfo { name: "lights", help: "lit cells that were gathered" }]
     }
 
     fn cost_parameter(&self) -> &'static str {

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use crate::question::plan::{Budget, Variant};
 use crate::question::settings;
-use crate::registry;
+use crate::registry::{self, Methods};
 
 /// A method of an experiment file, with one value or a list of them for each parameter.
 #[derive(Deserialize)]
@@ -44,8 +44,13 @@ impl Entry {
     ///
     /// # Errors
     /// One line for an unknown method or parameter (the nearest is named) or a value out of range.
-    pub(crate) fn variants(&self, times: &[Budget]) -> Result<Vec<Variant>, String> {
-        let method = registry::method(&self.id)?;
+    pub(crate) fn variants(
+        &self,
+        methods: Methods,
+        times: &[Budget],
+    ) -> Result<Vec<Variant>, String> {
+        let place = registry::place(methods, &self.id)?;
+        let method = methods[place];
         let budgets = self.budgets(method.cost_parameter(), times)?;
         let grid = self.grid()?;
         if grid.is_empty() {
@@ -62,7 +67,7 @@ impl Entry {
                 let parameters = settings::parameters(method, pairs)?;
                 variants.extend(budgets.iter().map(|&budget| {
                     let parameters = parameters.clone();
-                    Variant { method, parameters, swept, visibility, budget }
+                    Variant { method, place, parameters, swept, visibility, budget }
                 }));
             }
         }

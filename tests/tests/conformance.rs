@@ -1,0 +1,88 @@
+//! What every registered method promises, on every built-in scene and transport.
+
+use std::collections::BTreeSet;
+
+use manylights_harness::registry::METHODS;
+use manylights_method::{CounterInfo, Error, Method, Run};
+use manylights_metrics::RadianceImage;
+use manylights_scene::builtin::BUILTINS;
+use manylights_scene::{Transport, Visibility};
+use manylights_tests::Stage;
+
+const RESOLUTION: [u32; 2] = [12, 9];
+
+/// One of each kind, with both visibilities of a last segment.
+fn transports() -> Vec<Transport> {
+    let kinds = ["direct", "indirect-1", "indirect-2", "all"];
+    let traced = kinds.map(|kind| kind.parse().expect("a transport"));
+    let ignored = Transport::Indirect { bounces: 1, visibility: Visibility::Ignored };
+    traced.into_iter().chain([ignored]).collect()
+}
+
+/// A run to its end, whose progress only grows and whose counters are those that are documented.
+fn finished(mut run: Box<dyn Run + '_>, documented: &[CounterInfo], what: &str) -> RadianceImage {
+    let mut before = 0;
+    loop {
+        let progress = run.step().unwrap_or_else(|error| panic!("{what}: {error}"));
+        assert!(progress.done > before || progress.finished(), "{what} stands still: {progress:?}");
+        assert!(before <= progress.done && progress.done <= progress.total, "{what}: {progress:?}");
+        before = progress.done;
+        if progress.finished() {
+            break;
+        }
+    }
+    let counters: Vec<_> = run.counters().iter().map(|(name, _)| *name).collect();
+    assert!(documented.iter().map(|info| info.name).eq(counters), "counters of {what}");
+    run.resolve().unwrap_or_else(|error| panic!("{what}: {error}"))
+}
+
+/// The picture of a method with this much work; `None` where it declines, with a reason of one line.
+fn picture(
+    stage: &Stage,
+    method: &dyn Method,
+    transport: Transport,
+    [amount, seed]: [u64; 2],
+) -> Option<RadianceImage> {
+    let what = format!("{} on {}, {transport:?}", method.id(), stage.scene.name);
+    let parameters = [(method.cost_parameter(), &*amount.to_string())];
+    match stage.prepare(method, &parameters, transport, seed) {
+        Ok(run) => Some(finished(run, method.counters(), &what)),
+        Err(Error::Declined(reason)) => {
+            assert!(reason.len() > 10 && reason.lines().count() == 1, "{what}: {reason}");
+            None
+        }
+        Err(error) => panic!("{what}: {error}"),
+    }
+}
+
+#[test]
+fn methods_decline_or_give_a_finite_picture_that_the_seed_decides() {
+    let mut rendered = BTreeSet::new();
+    for builtin in BUILTINS {
+        let stage = Stage::new((builtin.make)(), RESOLUTION);
+        for method in METHODS {
+            for transport in transports() {
+                let what = format!("{} on {}, {transport:?}", method.id(), builtin.name);
+                let render = |amount, seed| picture(&stage, *method, transport, [amount, seed]);
+                let Some(image) = render(33, 1) else { continue };
+                rendered.insert(method.id());
+                assert_eq!([image.width, image.height], RESOLUTION, "{what}");
+                let values = image.pixels.as_flattened();
+                assert!(values.iter().all(|v| v.is_finite() && *v >= 0.0), "{what}");
+                assert!(values.iter().any(|v| *v > 0.0), "{what} is black");
+                assert_eq!(render(33, 1).as_ref(), Some(&image), "{what}: the same seed");
+                // What chance has no part in is exact: more work changes nothing either.
+                if render(33, 2).as_ref() == Some(&image) {
+                    let more = render(70, 1);
+                    assert_eq!(
+                        more,
+                        Some(image),
+                        "{what}: the seed is without effect, the work not"
+                    );
+                }
+            }
+        }
+    }
+    let all: BTreeSet<_> = METHODS.iter().map(|method| method.id()).collect();
+    assert_eq!(rendered, all, "a method declines everything");
+}
