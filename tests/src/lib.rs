@@ -75,16 +75,20 @@ impl Stage {
         transport: Transport,
         seed: u64,
     ) -> Result<Box<dyn Run + '_>, Error> {
-        let frame = Frame {
+        let parameters = Parameters::new(method.parameters(), parameters.iter().copied());
+        method.prepare(&self.frame(transport, seed), &parameters.expect("in range"))
+    }
+
+    /// What a method is told of a picture.
+    pub fn frame(&self, transport: Transport, seed: u64) -> Frame<'_> {
+        Frame {
             scene: &self.scene,
             camera: &self.scene.cameras[0],
             resolution: self.on_gpu.resolution(),
             transport,
             seed,
             gpu: Some(&self.on_gpu),
-        };
-        let parameters = Parameters::new(method.parameters(), parameters.iter().copied());
-        method.prepare(&frame, &parameters.expect("in range"))
+        }
     }
 
     /// The same by tracing paths.

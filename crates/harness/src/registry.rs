@@ -62,11 +62,14 @@ mod tests {
                 assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
                 assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
             }
-            let mut counted = BTreeSet::new();
-            for info in method.counters() {
-                assert!(counted.insert(info.name), "{} counts {} twice", method.id(), info.name);
-                assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
-                assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
+            let baked = method.baking().map_or(&[][..], |baking| baking.counters());
+            for counters in [method.counters(), baked] {
+                let mut counted = BTreeSet::new();
+                for info in counters {
+                    assert!(counted.insert(info.name), "{} twice in {}", info.name, method.id());
+                    assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
+                    assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
+                }
             }
         }
     }

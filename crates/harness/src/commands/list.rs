@@ -71,6 +71,9 @@ fn method_entry(method: &dyn Method) -> Entry {
         "processor": processor,
         "parameters": method.parameters().iter().map(parameter_json).collect::<Vec<_>>(),
         "counters": method.counters().iter().map(counter_json).collect::<Vec<_>>(),
+        "bake_counters": method.baking().map(|baking| {
+            baking.counters().iter().map(counter_json).collect::<Vec<_>>()
+        }),
     });
     Entry { text, json }
 }

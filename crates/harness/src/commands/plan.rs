@@ -48,9 +48,11 @@ pub(crate) fn run(arguments: &PlanArguments, methods: Methods) -> Result<(), Fai
         json!({
             "key": job.key,
             "scene": scenes[job.scene].name,
+            "camera": experiment.cameras()[job.camera],
             "method": variant.method.id(),
             "label": job.label,
             "budget": variant.budget,
+            "bounded": variant.bounded,
             "runs": cells,
         })
     };
