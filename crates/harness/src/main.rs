@@ -2,8 +2,11 @@
 
 use std::process::ExitCode;
 
+use manylights_harness::cli;
+use manylights_harness::registry::METHODS;
+
 fn main() -> ExitCode {
-    match manylights_harness::cli::run(std::env::args_os()) {
+    match cli::run(std::env::args_os(), METHODS) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             eprintln!("manylights: {failure}");

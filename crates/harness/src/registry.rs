@@ -10,8 +10,11 @@ use manylights_vsl::Vsl;
 
 use crate::names;
 
-/// Every method, in the order of lists; its position fixes its colour and marker in plots.
-pub const METHODS: &[&dyn Method] = &[
+/// Methods to choose from, in the order of lists; a method's place fixes its colour and marker in plots.
+pub type Methods = &'static [&'static dyn Method];
+
+/// Every method of the program.
+pub const METHODS: Methods = &[
     &PathTracer,
     &VirtualLights(Vpl),
     &VirtualLights(Vsl),
@@ -19,21 +22,14 @@ pub const METHODS: &[&dyn Method] = &[
     &VirtualLights(Vsgl),
 ];
 
-/// The method of this name.
+/// Where the method of this name stands in a list.
 ///
 /// # Errors
 /// One line with the nearest name.
-pub fn method(id: &str) -> Result<&'static dyn Method, String> {
-    METHODS
-        .iter()
-        .copied()
-        .find(|method| method.id() == id)
-        .ok_or_else(|| names::unknown("method", id, METHODS.iter().map(|method| method.id())))
-}
-
-/// Where a method stands in [`METHODS`]; `METHODS.len()` for one that left the registry.
-pub(crate) fn position(id: &str) -> usize {
-    METHODS.iter().position(|method| method.id() == id).unwrap_or(METHODS.len())
+pub(crate) fn place(methods: Methods, id: &str) -> Result<usize, String> {
+    let ids = methods.iter().map(|method| method.id());
+    let place = ids.clone().position(|known| known == id);
+    place.ok_or_else(|| names::unknown("method", id, ids))
 }
 
 #[cfg(test)]
@@ -66,6 +62,15 @@ mod tests {
                 assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
                 assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
             }
+            let baked = method.baking().map_or(&[][..], |baking| baking.counters());
+            for counters in [method.counters(), baked] {
+                let mut counted = BTreeSet::new();
+                for info in counters {
+                    assert!(counted.insert(info.name), "{} twice in {}", info.name, method.id());
+                    assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
+                    assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
+                }
+            }
         }
     }
 
@@ -81,9 +86,9 @@ mod tests {
 
     #[test]
     fn an_unknown_method_is_an_error() {
-        assert!(method("no-such-method").is_err());
+        assert!(place(METHODS, "no-such-method").is_err());
         assert_eq!(
-            method("referense").err(),
+            place(METHODS, "referense").err(),
             Some("unknown method `referense`: did you mean `reference`?".into())
         );
     }

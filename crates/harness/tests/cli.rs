@@ -15,6 +15,11 @@ fn lists_are_json_where_asked() {
     assert!(ids.contains(&&"reference".into()), "{ids:?}");
     let parameters = methods[0]["parameters"].as_array().expect("a list");
     assert!(parameters.iter().all(|p| p["help"].is_string() && p["default"].is_number()));
+    for method in methods.as_array().expect("a list") {
+        let counters = method["counters"].as_array().expect("a list");
+        assert!(!counters.is_empty(), "{method}");
+        assert!(counters.iter().all(|c| c["name"].is_string() && c["help"].is_string()));
+    }
     let scenes = json(&["list", "scenes", "--json"]);
     for scene in ["integrating-sphere", "cornell", "cornell-glossy", "atrium", "trio"] {
         assert!(scenes.as_array().expect("a list").iter().any(|s| s["name"] == scene), "{scene}");

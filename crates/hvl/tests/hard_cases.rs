@@ -161,6 +161,7 @@ fn a_single_light_is_a_picture() {
             &texts,
             &Settings { lights: 1, radius, ..SETTINGS },
             Visibility::Ignored,
+            0,
         );
         assert!(!picture.lights.is_empty(), "{radius:?}");
         let pixels = picture.image.pixels.as_flattened();

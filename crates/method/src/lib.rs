@@ -56,6 +56,15 @@ impl Progress {
     }
 }
 
+/// A number that a method counts, as `list methods` shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CounterInfo {
+    /// Its name in results.
+    pub name: &'static str,
+    /// What is counted.
+    pub help: &'static str,
+}
+
 /// The time that one pass took, by the processor's own clock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
@@ -96,6 +105,9 @@ pub trait Method: Sync {
 
     /// What can be set with `--set KEY=VALUE`.
     fn parameters(&self) -> &'static [ParameterInfo];
+
+    /// What [`Run::counters`] returns, in its order.
+    fn counters(&self) -> &'static [CounterInfo];
 
     /// The parameter, a [`ParameterKind::Count`], that time and accuracy grow with. Where a budget
     /// names a time, its value is searched for.
@@ -139,7 +151,7 @@ pub trait Run {
     /// [`Error::Failed`] where the device gave up.
     fn resolve(&mut self) -> Result<RadianceImage, Error>;
 
-    /// What the run has counted: `lights`, `rays`, …
+    /// What the run has counted, one number for each of [`Method::counters`].
     fn counters(&self) -> Vec<(&'static str, u64)>;
 
     /// The time of each pass so far.

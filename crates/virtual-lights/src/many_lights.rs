@@ -5,8 +5,8 @@ use std::time::Instant;
 use glam::Vec3;
 use manylights_gpu::{GpuFrame, Shadows};
 use manylights_method::{
-    Bake, Baking, Dependencies, Error, Frame, Method, ParameterInfo, Parameters, PassTime,
-    Processor, Progress, Run,
+    Bake, Baking, CounterInfo, Dependencies, Error, Frame, Method, ParameterInfo, Parameters,
+    PassTime, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Transport, Visibility};
@@ -87,6 +87,10 @@ impl<M: Estimator> Method for VirtualLights<M> {
         M::PARAMETERS
     }
 
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[CounterInfo { name: "lights", help: "lit cells that were gathered" }]
+    }
+
     fn cost_parameter(&self) -> &'static str {
         ParameterInfo::LIGHTS.name
     }
@@ -119,6 +123,10 @@ impl<M: Estimator> Baking for VirtualLights<M> {
 
     fn processor(&self) -> Processor {
         Processor::Cpu
+    }
+
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[CounterInfo { name: "tables", help: "made of the materials of the scene" }]
     }
 
     fn bake(&self, frame: &Frame<'_>, parameters: &Parameters) -> Result<Box<dyn Bake>, Error> {

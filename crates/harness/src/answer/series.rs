@@ -14,8 +14,8 @@ use crate::show::style::{Marker, method_style};
 pub(crate) struct Series {
     /// For legends: method and the parameters that all its variants share.
     pub(crate) name: String,
-    /// Id of the method.
-    method: &'static str,
+    /// Where its method stands in the registry.
+    place: usize,
     /// Which of the curves of its method.
     pub(crate) nth: usize,
     /// Which machine's; a curve never joins the times of two.
@@ -60,7 +60,7 @@ pub(crate) fn of_experiment(experiment: &Experiment, scenes: &[SceneAnswer]) -> 
             let machine = machine.to_owned();
             list.push(Series {
                 name,
-                method,
+                place: variant.place,
                 nth: *nth,
                 machine,
                 variants: vec![index],
@@ -75,7 +75,7 @@ pub(crate) fn of_experiment(experiment: &Experiment, scenes: &[SceneAnswer]) -> 
 impl Series {
     /// Colour and marker, those of the method.
     pub(crate) fn style(&self) -> (RGBColor, Marker) {
-        method_style(self.method)
+        method_style(self.place)
     }
 
     /// What was measured on a scene against a reference: in the order of the amount of work where

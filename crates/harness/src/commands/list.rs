@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use manylights_method::{Method, ParameterInfo, ParameterKind, Processor};
+use manylights_method::{CounterInfo, Method, ParameterInfo, ParameterKind, Processor};
 use manylights_scene::SceneKind;
 use serde_json::{Value, json};
 
 use crate::error::Failure;
 use crate::output::print_json;
 use crate::question::experiment;
-use crate::registry::METHODS;
+use crate::registry::Methods;
 use clap::Args;
 
 /// What `list` shows.
@@ -36,9 +36,9 @@ const RESULTS: &str = "results";
 ///
 /// # Errors
 /// One line where an experiment file is malformed.
-pub(crate) fn run(arguments: &ListArguments) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &ListArguments, methods: Methods) -> Result<(), Failure> {
     let entries = match arguments.what {
-        Listed::Methods => METHODS.iter().map(|method| method_entry(*method)).collect(),
+        Listed::Methods => methods.iter().map(|method| method_entry(*method)).collect(),
         Listed::Scenes => scenes(),
         Listed::Experiments => experiments()?,
     };
@@ -70,6 +70,10 @@ fn method_entry(method: &dyn Method) -> Entry {
         "title": method.title(),
         "processor": processor,
         "parameters": method.parameters().iter().map(parameter_json).collect::<Vec<_>>(),
+        "counters": method.counters().iter().map(counter_json).collect::<Vec<_>>(),
+        "bake_counters": method.baking().map(|baking| {
+            baking.counters().iter().map(counter_json).collect::<Vec<_>>()
+        }),
     });
     Entry { text, json }
 }
@@ -98,6 +102,10 @@ fn parameter_json(info: &ParameterInfo) -> Value {
         "name": info.name, "help": info.help, "kind": kind,
         "default": default, "min": min, "max": max,
     })
+}
+
+fn counter_json(info: &CounterInfo) -> Value {
+    json!({ "name": info.name, "help": info.help })
 }
 
 fn scenes() -> Vec<Entry> {

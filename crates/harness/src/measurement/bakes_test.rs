@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use manylights_method::{
-    Bake, Baking, Dependencies, Error, Frame, Method, ParameterInfo, ParameterKind, Parameters,
-    PassTime, Processor, Progress, Run,
+    Bake, Baking, CounterInfo, Dependencies, Error, Frame, Method, ParameterInfo, ParameterKind,
+    Parameters, PassTime, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Visibility};
@@ -18,6 +18,7 @@ use crate::measurement::session::Session;
 use crate::question::columns::Column;
 use crate::question::experiment::{self, Experiment, Profile};
 use crate::question::plan::{Bounded, Budget, Variant};
+use crate::registry::METHODS;
 use crate::show::table;
 
 struct Baker {
@@ -70,6 +71,10 @@ impl Method for &'static Baker {
         &[ParameterInfo { name: "work", help: "none at all", kind: KIND }]
     }
 
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[]
+    }
+
     fn cost_parameter(&self) -> &'static str {
         "work"
     }
@@ -102,6 +107,10 @@ impl Baking for &'static Baker {
 
     fn processor(&self) -> Processor {
         self.processor
+    }
+
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[CounterInfo { name: "views", help: "cameras so far" }]
     }
 
     fn bake(&self, frame: &Frame<'_>, parameters: &Parameters) -> Result<Box<dyn Bake>, Error> {
@@ -170,7 +179,7 @@ seeds = [1, 2]
 fn experiment_in(folder: &Path) -> Experiment {
     let file = folder.join("experiment.toml");
     std::fs::write(&file, EXPERIMENT).expect("writable");
-    experiment::read(&file, Profile::Quick).expect("valid")
+    experiment::read(&file, Profile::Quick, METHODS).expect("valid")
 }
 
 /// The cells of `cameras` of the atrium by a method that bakes, with this budget; and what it wrote down.
@@ -190,6 +199,7 @@ fn cells(
 fn variant(baker: &'static Baker) -> Variant {
     Variant {
         method: Box::leak(Box::new(baker)),
+        place: 0,
         parameters: Parameters::defaults((&baker).parameters()),
         swept: "work",
         visibility: Visibility::Traced,

@@ -65,6 +65,8 @@ impl Bounded {
 pub(crate) struct Variant {
     /// From the registry.
     pub(crate) method: &'static dyn Method,
+    /// Where it stands in the registry.
+    pub(crate) place: usize,
     /// All of its parameters. Of one with a time budget, the cost parameter is where the search
     /// starts.
     pub(crate) parameters: Parameters,

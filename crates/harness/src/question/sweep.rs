@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::question::plan::{Bounded, Budget, Variant};
 use crate::question::settings;
-use crate::registry;
+use crate::registry::{self, Methods};
 
 /// A method of an experiment file, with one value or a list of them for each parameter.
 #[derive(Deserialize)]
@@ -60,8 +60,13 @@ impl Entry {
     ///
     /// # Errors
     /// One line for an unknown method or parameter (the nearest is named) or a value out of range.
-    pub(crate) fn variants(&self, times: &[Budget]) -> Result<Vec<Variant>, String> {
-        let method = registry::method(&self.id)?;
+    pub(crate) fn variants(
+        &self,
+        methods: Methods,
+        times: &[Budget],
+    ) -> Result<Vec<Variant>, String> {
+        let place = registry::place(methods, &self.id)?;
+        let method = methods[place];
         let budgets = self.budgets(method, times)?;
         let grid = self.grid()?;
         if grid.is_empty() {
@@ -79,7 +84,7 @@ impl Entry {
                 variants.extend(budgets.iter().map(|&budget| {
                     let parameters = parameters.clone();
                     let bounded = self.budget.bounded().unwrap_or_default();
-                    Variant { method, parameters, swept, visibility, budget, bounded }
+                    Variant { method, place, parameters, swept, visibility, budget, bounded }
                 }));
             }
         }
@@ -90,11 +95,11 @@ impl Entry {
     ///
     /// # Errors
     /// As [`Self::variants`], and for an entry that stands for several.
-    pub(crate) fn single(&self) -> Result<Variant, String> {
+    pub(crate) fn single(&self, methods: Methods) -> Result<Variant, String> {
         if matches!(self.budget, Kind::Time) {
             return Err(format!("`{}` has a time budget: set its parameters instead", self.id));
         }
-        match <[Variant; 1]>::try_from(self.variants(&[])?) {
+        match <[Variant; 1]>::try_from(self.variants(methods, &[])?) {
             Ok([variant]) => Ok(variant),
             Err(_) => Err("parameters and visibility must be single values".into()),
         }
