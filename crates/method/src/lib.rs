@@ -3,13 +3,15 @@
 //! A method never sees the clock, the budget, the reference or the file system. It is progressive:
 //! [`Method::prepare`], then [`Run::step`] until it says that it is done, then [`Run::resolve`].
 
+mod cost;
 mod parameters;
 
 use manylights_gpu::GpuFrame;
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Camera, Scene, Transport, Visibility};
 
-pub use parameters::{ParameterInfo, ParameterKind, Parameters};
+pub use cost::{Amounts, Cost, Direction};
+pub use parameters::{ChoiceWord, ParameterInfo, ParameterKind, ParameterValue, Parameters};
 
 /// Where the work of a method is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,15 +96,14 @@ pub trait Method: Sync {
     /// What can be set with `--set KEY=VALUE`.
     fn parameters(&self) -> &'static [ParameterInfo];
 
-    /// The parameter, a [`ParameterKind::Count`], that time and accuracy grow with. Where a budget
-    /// names a time, its value is searched for.
-    fn cost_parameter(&self) -> &'static str;
+    /// The parameter that time and accuracy depend on.
+    fn cost(&self) -> Cost;
 
     /// Of the last segment, where nobody says: what its source computes.
     fn visibility(&self) -> Visibility;
 
     /// Whether the picture after every step estimates the final one, so that one run gives a whole
-    /// curve of error against time.
+    /// curve of error against time. Its cost is then a count, the one that [`Progress`] tells of.
     fn is_progressive(&self) -> bool;
 
     /// Checks that the method can make this picture and sets up what does not depend on the amount

@@ -6,6 +6,7 @@
 mod light_gather;
 mod lit_texels;
 mod many_lights;
+mod parameters;
 mod radius;
 mod rsm;
 mod solid_angle;
@@ -15,6 +16,7 @@ mod virtual_sphere;
 pub use light_gather::{LightBatches, LightGather, Lights};
 pub use lit_texels::{LIT_TEXEL, LitTexel, LitTexels, lit_texels};
 pub use many_lights::{Estimator, ManyLightFrame, ManyLightRun, PlacedLights, VirtualLights};
+pub use parameters::{LIGHTS, RADIUS, SCALE};
 pub use radius::{RadiusRule, radii};
 pub use rsm::{Map, MapCell, maps, scene_maps};
 pub use solid_angle::rectangle_solid_angle;

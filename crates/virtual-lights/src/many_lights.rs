@@ -3,23 +3,24 @@
 use glam::Vec3;
 use manylights_gpu::{GpuFrame, Shadows};
 use manylights_method::{
-    Error, Frame, Method, ParameterInfo, Parameters, PassTime, Processor, Progress, Run,
+    Cost, Error, Frame, Method, ParameterInfo, Parameters, PassTime, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Transport, Visibility};
 
 use crate::light_gather::{LightBatches, LightGather};
+use crate::parameters::COST;
 
 /// What a light contributes to a pixel, for methods that gather virtual lights on the adapter. All else
 /// is alike for all of them, and [`VirtualLights`] makes them a [`Method`] of it: one indirect bounce of point-like primary lights; time
-/// and accuracy grow with the parameter [`ParameterInfo::LIGHTS`]; the thesis casts no shadow rays; and
+/// and accuracy grow with the parameter [`LIGHTS`](crate::LIGHTS); the thesis casts no shadow rays; and
 /// half of the lights is half of the flux, so that only the last picture estimates anything.
 pub trait Estimator: Sync {
     /// As [`Method::id`].
     const ID: &'static str;
     /// As [`Method::title`].
     const TITLE: &'static str;
-    /// As [`Method::parameters`], [`ParameterInfo::LIGHTS`] among them.
+    /// As [`Method::parameters`], [`LIGHTS`](crate::LIGHTS) among them.
     const PARAMETERS: &'static [ParameterInfo];
 
     /// As [`Method::prepare`], for a frame that virtual lights can render.
@@ -53,8 +54,8 @@ impl<M: Estimator> Method for VirtualLights<M> {
         M::PARAMETERS
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        ParameterInfo::LIGHTS.name
+    fn cost(&self) -> Cost {
+        COST
     }
 
     fn visibility(&self) -> Visibility {

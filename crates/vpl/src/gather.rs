@@ -29,7 +29,7 @@ pub fn linked_shader(
         ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("clamped", settings.clamp.is_some()),
-        ("attenuated", settings.radius.is_some()),
+        ("attenuated", settings.attenuation_radius.is_some()),
         ("traced", traced),
     ];
     let features = [&features[..], &kinds.features()].concat();
@@ -78,7 +78,7 @@ pub(crate) fn gather(
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
-    let radius = settings.radius.unwrap_or(0.0);
+    let radius = settings.attenuation_radius.unwrap_or(0.0);
     let view = View {
         camera,
         pixels,

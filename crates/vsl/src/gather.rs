@@ -85,7 +85,7 @@ pub(crate) fn gather(
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
-    let view = View { camera, pixels, samples: settings.samples, padding: [0; 3] };
+    let view = View { camera, pixels, samples: settings.directions, padding: [0; 3] };
     let traced = shadows.is_some();
     let wgsl = [
         linked_shader(kinds, false, traced, settings)?,

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::measurement::provenance::{Provenance, sha256};
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Budget, Variant};
+use crate::question::recorded_value::RecordedValue;
 
 /// What decides the picture and its errors, and where its time was taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,7 +20,7 @@ pub(crate) struct Inputs {
     /// Method.
     pub(crate) method: String,
     /// Its parameters, without the one that a time budget sets.
-    pub(crate) parameters: BTreeMap<String, f64>,
+    pub(crate) parameters: BTreeMap<String, RecordedValue>,
     /// What it may cost.
     pub(crate) budget: Budget,
     /// Same seed, same picture.

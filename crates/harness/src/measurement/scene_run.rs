@@ -32,7 +32,7 @@ pub(crate) struct SceneRun<'s, 'a> {
     /// What the pictures are compared with.
     pub(crate) references: &'s [SceneReference],
     /// Of each variant, the value of the cost parameter that its time budget was found to allow.
-    pub(crate) amounts: Vec<Option<u64>>,
+    pub(crate) amounts: Vec<Option<f64>>,
     /// The variants whose time budgets no amount could be found for, and why.
     pub(crate) refused: BTreeMap<usize, Outcome>,
     /// Whether any cell was not in the journal.
@@ -177,13 +177,13 @@ impl SceneRun<'_, '_> {
     pub(crate) fn measure(
         &self,
         turn: Turn,
-        amount: Option<u64>,
+        amount: Option<f64>,
         look: Look<'_>,
     ) -> Result<Measured, Error> {
         let experiment = self.session.experiment;
         let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
         let frame = self.stage.frame(experiment.transport, turn.seed);
-        let set = |amount| parameters.with_count(method.cost_parameter(), amount);
+        let set = |amount| parameters.with_number(method.cost().parameter, amount);
         let parameters = amount.map_or_else(|| parameters.clone(), set);
         measure::measure(*method, &frame, *visibility, &parameters, look)
     }
@@ -197,7 +197,8 @@ impl SceneRun<'_, '_> {
             if method.is_progressive() && progress.done >= next && !progress.finished() {
                 next = 2 * progress.done;
                 let display_rmse = self.display_rmse(&run.resolve()?)?;
-                checkpoints.push(Checkpoint { amount: progress.done, step_seconds, display_rmse });
+                let amount = progress.done as f64;
+                checkpoints.push(Checkpoint { amount, step_seconds, display_rmse });
             }
             Ok(())
         };
@@ -252,7 +253,7 @@ impl SceneRun<'_, '_> {
         checkpoints: Vec<Checkpoint>,
     ) -> Result<Done, manylights_metrics::Error> {
         let Variant { method, parameters, .. } = &self.session.experiment.variants[turn.variant];
-        let asked = || parameters.count(method.cost_parameter());
+        let asked = || parameters.real(method.cost().parameter);
         let errors = self
             .references
             .iter()

@@ -35,9 +35,10 @@ impl SceneRun<'_, '_> {
             cell.provenance == *provenance
                 && Inputs { seed, repetition, ..inputs.clone() } == cell.inputs
         };
+        let allowed = self.session.experiment.variants[variant].amounts();
         self.amounts[variant] =
             self.session.journal.cells().rev().filter(alike).find_map(|cell| match &cell.outcome {
-                Outcome::Done(done) => Some(done.amount),
+                Outcome::Done(done) => Some(done.amount).filter(|&amount| allowed.contains(amount)),
                 _ => None,
             });
     }
@@ -57,7 +58,7 @@ impl SceneRun<'_, '_> {
         }
     }
 
-    fn search(&self, turn: Turn) -> Result<u64, Error> {
+    fn search(&self, turn: Turn) -> Result<f64, Error> {
         let experiment = self.session.experiment;
         let variant = &experiment.variants[turn.variant];
         let target = match variant.budget {
@@ -73,18 +74,18 @@ impl SceneRun<'_, '_> {
                 )?
             }
         };
-        let start = variant.parameters.count(variant.method.cost_parameter());
+        let start = variant.parameters.real(variant.method.cost().parameter);
         let measured = |amount| self.time(turn, amount, target);
-        equal_time::search(target, variant.cost_range(), start, measured)
+        equal_time::search(target, variant.amounts(), start, measured)
     }
 
     /// One run where the time is far from `target`, the median of some where it is near.
-    fn time(&self, turn: Turn, amount: u64, target: f64) -> Result<f64, Error> {
+    fn time(&self, turn: Turn, amount: f64, target: f64) -> Result<f64, Error> {
         let first = self.measure(turn, Some(amount), &mut |_, _, _| Ok(()))?.step_seconds;
         if distance(first, target) > 0.5 { Ok(first) } else { self.seconds(turn, Some(amount)) }
     }
 
-    fn seconds(&self, turn: Turn, amount: Option<u64>) -> Result<f64, Error> {
+    fn seconds(&self, turn: Turn, amount: Option<f64>) -> Result<f64, Error> {
         let runs = (0..RUNS).map(|_| self.measure(turn, amount, &mut |_, _, _| Ok(())));
         let seconds: Vec<f64> =
             runs.map(|run| Ok(run?.step_seconds)).collect::<Result<_, Error>>()?;
@@ -121,7 +122,7 @@ impl SceneRun<'_, '_> {
     }
 
     /// A better amount for a variant whose median time missed its budget, where there is one.
-    fn missed(&self, variant: usize, cells: &[(Turn, Cell)]) -> Option<u64> {
+    fn missed(&self, variant: usize, cells: &[(Turn, Cell)]) -> Option<f64> {
         let target = match self.session.experiment.variants[variant].budget {
             Budget::Count => return None,
             Budget::Seconds(seconds) => seconds,
@@ -129,9 +130,8 @@ impl SceneRun<'_, '_> {
         };
         let seconds = median_seconds(variant, cells)?;
         let amount = self.amounts[variant]?;
-        let range = self.session.experiment.variants[variant].cost_range();
-        let better = (amount as f64 * target / seconds).round() as u64;
-        let better = better.clamp(*range.start(), *range.end());
+        let amounts = self.session.experiment.variants[variant].amounts();
+        let better = amounts.nearest(amounts.work(amount) * target / seconds);
         (miss(seconds, target) > TOLERANCE && better != amount).then_some(better)
     }
 }

@@ -46,7 +46,7 @@ impl Entry {
     /// One line for an unknown method or parameter (the nearest is named) or a value out of range.
     pub(crate) fn variants(&self, times: &[Budget]) -> Result<Vec<Variant>, String> {
         let method = registry::method(&self.id)?;
-        let budgets = self.budgets(method.cost_parameter(), times)?;
+        let budgets = self.budgets(method.cost().parameter, times)?;
         let grid = self.grid()?;
         if grid.is_empty() {
             return Err(format!("methods: `{}` has a parameter without values", self.id));
@@ -54,7 +54,7 @@ impl Entry {
         let is_list = |name: &str| matches!(self.parameters.get(name), Some(toml::Value::Array(_)));
         let names = method.parameters().iter().map(|info| info.name);
         let swept = names.into_iter().find(|name| is_list(name));
-        let swept = swept.unwrap_or(method.cost_parameter());
+        let swept = swept.unwrap_or(method.cost().parameter);
         let mut variants = Vec::new();
         for visibility in self.visibilities(method.visibility())? {
             for row in &grid {
@@ -106,7 +106,7 @@ impl Entry {
             let mut extended = Vec::with_capacity(grid.len() * values.len());
             for row in &grid {
                 for value in values {
-                    extended.push([row, &[(key.as_str(), number(key, value)?)][..]].concat());
+                    extended.push([row, &[(key.as_str(), text(key, value)?)][..]].concat());
                 }
             }
             grid = extended;
@@ -115,10 +115,11 @@ impl Entry {
     }
 }
 
-fn number(key: &str, value: &toml::Value) -> Result<String, String> {
+fn text(key: &str, value: &toml::Value) -> Result<String, String> {
     match value {
+        toml::Value::String(word) => Ok(word.clone()),
         toml::Value::Integer(number) => Ok(number.to_string()),
         toml::Value::Float(number) => Ok(number.to_string()),
-        other => Err(format!("parameter `{key}` = `{other}`: must be a number or a list of them")),
+        other => Err(format!("parameter `{key}` = `{other}`: must be a number, a word or a list")),
     }
 }
