@@ -127,3 +127,44 @@ impl Settings {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(name: &str, word: &str) -> Settings {
+        Settings::new(&Parameters::new(PARAMETERS, [(name, word)]).expect("a word"))
+    }
+
+    #[test]
+    fn every_word_means_what_it_says() {
+        let plain = Settings::default();
+        let windows = [
+            ("none", Damping::None),
+            ("hann", Damping::Window(Window::Hann)),
+            ("lanczos", Damping::Window(Window::Lanczos)),
+            ("hamming", Damping::Window(Window::Hamming)),
+            ("weakest", Damping::Weakest),
+        ];
+        for (word, damping) in windows {
+            assert_eq!(set("window", word), Settings { damping, ..plain });
+        }
+        for (word, form) in [("full", Form::Full), ("zonal", Form::Zonal)] {
+            assert_eq!(set("form", word), Settings { form, ..plain });
+        }
+        for (word, horizon) in [("smooth", Horizon::Smooth), ("exact", Horizon::Exact)] {
+            assert_eq!(set("horizon", word), Settings { horizon, ..plain });
+        }
+    }
+
+    #[test]
+    fn no_word_is_without_a_meaning() {
+        for info in PARAMETERS {
+            let ParameterKind::Choice { words, .. } = info.kind else { continue };
+            let settings: Vec<_> = words.iter().map(|known| set(info.name, known.word)).collect();
+            for (index, one) in settings.iter().enumerate() {
+                assert!(!settings[..index].contains(one), "{}: {one:?} twice", info.name);
+            }
+        }
+    }
+}
