@@ -41,7 +41,7 @@ impl Reflectances {
         !self.exact_fresnel && self.measured.is_empty()
     }
 
-    /// The switches of `package::brdf`, for [`link`](crate::link).
+    /// The switches of `package::brdf`, for [`link`](crate::link()).
     pub fn features(&self) -> [Feature<'static>; 2] {
         [("exact_fresnel", self.exact_fresnel), ("measured", !self.measured.is_empty())]
     }

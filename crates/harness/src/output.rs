@@ -1,5 +1,6 @@
 //! Where results go. What cannot be written is refused before anything is rendered.
 
+use std::collections::BTreeMap;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -32,6 +33,47 @@ pub(crate) fn check_image(path: &Path) -> Result<(PathBuf, PathBuf), Failure> {
     }
     NamedTempFile::new_in(folder(path)).map_err(|error| cannot_write(path, "-o", error))?;
     Ok((path.to_owned(), png))
+}
+
+/// Refuses outputs that would replace what they are made from. Files that are not there yet replace
+/// nothing.
+///
+/// # Errors
+/// One line that names the file and the option to change.
+pub(crate) fn keep_inputs<'a>(
+    outputs: impl IntoIterator<Item = PathBuf>,
+    inputs: impl IntoIterator<Item = &'a Path>,
+    option: &str,
+) -> Result<(), Failure> {
+    let inputs: BTreeMap<_, _> =
+        inputs.into_iter().filter_map(|path| Some((identity(path)?, path))).collect();
+    for output in outputs {
+        if let Some(input) = identity(&output).and_then(|file| inputs.get(&file)) {
+            return Err(Failure::input(format!(
+                "{} would be written over {}, which is an input: choose another {option}",
+                output.display(),
+                input.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Whether both are there and one, through whatever links.
+pub(crate) fn is_same_file(a: &Path, b: &Path) -> bool {
+    identity(a).is_some_and(|file| Some(file) == identity(b))
+}
+
+/// What two paths to one file have in common; nothing where there is no file.
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    path.metadata().ok().map(|file| (file.dev(), file.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok()
 }
 
 /// Prints JSON on standard output. A reader that has read enough is no error.

@@ -232,6 +232,73 @@ fn a_check_passes_on_an_unchanged_tree_and_names_what_moved() {
 }
 
 #[test]
+fn a_check_repeats_the_amounts_of_time_budgets() {
+    let place = Place::new(&EXPERIMENT.replace("\"cornell\", ", ""));
+    let baseline = place.folder.path().to_str().expect("UTF-8").to_owned();
+    succeeded(&manylights(&["check", "--baseline", &baseline, "--bless"]));
+    assert_eq!(json(&["check", "--baseline", &baseline, "--json"]), serde_json::json!([]));
+
+    // An amount that no search finds: the check must take it, and say what that moves.
+    let mut cells: Vec<Value> = place
+        .read("cells.jsonl")
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect();
+    for cell in cells.iter_mut().filter(|cell| cell["budget"] != "count") {
+        cell["amount"] = 7.into();
+    }
+    let lines: String = cells.iter().map(|cell| format!("{cell}\n")).collect();
+    std::fs::write(place.path("cells.jsonl"), lines).expect("writable");
+    let output = manylights(&["check", "--baseline", &baseline, "--json"]);
+    let moved: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let counts = |moved: &&Value| moved["quantity"] == "counts";
+    let counts: Vec<_> = moved.as_array().expect("a list").iter().filter(counts).collect();
+    assert_eq!(counts.len(), 2, "both budgets: {moved}");
+    for moved in counts {
+        assert!(moved["now"].as_str().expect("text").contains("\"samples\": 7"), "{moved}");
+    }
+}
+
+#[test]
+fn each_camera_has_its_own_table_and_pictures() {
+    let counts = EXPERIMENT.replace("[[methods]]\nid = \"reference\"\nbudget = \"time\"\n", "");
+    let views = counts
+        .replace("[\"cornell\", \"trio\"]", "[\"atrium\"]\ncameras = [\"nave\", \"aisle\"]")
+        .replace("scene = \"trio\"", "scene = \"atrium-aisle\"");
+    let place = Place::new(&views);
+    place.run("out", &[]);
+    let markdown = place.read("out/table.md");
+    for said in ["## atrium-nave", "## atrium-aisle", "| nobody | atrium-aisle |"] {
+        assert!(markdown.contains(said), "{said}: {markdown}");
+    }
+    assert!(!markdown.contains("bake ms"), "nothing is baked: {markdown}");
+    let cells = place.cells("out");
+    let hashes = |camera: &str| -> BTreeSet<String> {
+        let seen = cells.iter().filter(|cell| cell["camera"] == camera);
+        seen.map(|cell| cell["image_sha256"].to_string()).collect()
+    };
+    let [nave, aisle] = ["nave", "aisle"].map(hashes);
+    assert!(nave.len() == 4 && aisle.len() == 4 && nave.is_disjoint(&aisle));
+    let table = place.read("out/table.csv");
+    let out = place.path("out");
+    succeeded(&manylights(&["report", &out]));
+    assert_eq!(place.read("out/table.csv"), table, "read back as it was written");
+
+    let file = place.path("experiment.toml");
+    let jobs = json(&["plan", &file, "--profile", "quick", "--json"]);
+    let jobs = jobs.as_array().expect("a list");
+    let of_aisle = |job: &&Value| job["camera"] == "aisle";
+    let job = jobs.iter().find(of_aisle).expect("a job of the second camera");
+    place.run("piece", &["--cell", job["key"].as_str().expect("a key")]);
+    let piece = place.cells("piece");
+    assert!(piece.len() == 4 && piece.iter().all(|cell| cell["camera"] == "aisle"));
+    assert!(piece.iter().all(|cell| cells.iter().any(|other| cell["key"] == other["key"])));
+    std::fs::write(&file, views.replace("\"aisle\"]", "\"aisel\"]")).expect("writable");
+    let arguments = ["run", &file, "--profile", "quick", "--out", &out, "--cache", &out];
+    refused(&arguments, "aisle");
+}
+
+#[test]
 fn results_are_exported_for_trackers() {
     let place = Place::new(EXPERIMENT);
     place.run("out", &[]);

@@ -305,5 +305,14 @@ fn metrics_refuse_what_cannot_be_compared() {
     refused(&["metrics", &good, &larger], "16×12");
     refused(&["metrics", &broken, &good], "not finite");
     refused(&["metrics", &tiny, &tiny], "11×11");
+    let elsewhere = folder.path().join("elsewhere.exr");
+    let mut bytes = std::fs::read(&good).expect("readable");
+    let window = b"displayWindow\0box2i\0\x10\0\0\0";
+    let at = bytes.windows(window.len()).position(|part| part == window).expect("is required");
+    // Its right end: a wider frame.
+    bytes[at + window.len() + 8] += 1;
+    std::fs::write(&elsewhere, bytes).expect("writable");
+    let elsewhere = elsewhere.to_str().expect("UTF-8");
+    refused(&["metrics", elsewhere, &good], "of a frame of 17×12 pixels");
     refused(&["metrics", &good, &good, "--exposure", "0"], "exposure");
 }

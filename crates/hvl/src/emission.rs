@@ -27,20 +27,45 @@ pub struct EmissionTable {
     values: Vec<[f64; 2]>,
 }
 
+/// Tables as [`manylights_reflectance::Tables`] holds those of receivers.
+pub(crate) struct EmissionTables(Cache<Vec<Arc<EmissionTable>>>);
+
+impl EmissionTables {
+    /// Nothing made yet.
+    pub(crate) const fn new() -> Self {
+        Self(Cache::new())
+    }
+
+    /// The one that lasts as long as the process.
+    pub(crate) fn shared() -> &'static Self {
+        static SHARED: EmissionTables = EmissionTables::new();
+        &SHARED
+    }
+
+    /// The table for a shape and a number of bands.
+    pub(crate) fn get(&self, shape: LobeShape, bands: usize) -> Arc<EmissionTable> {
+        let (first, place) = shape.place();
+        let all = self.0.get((first, bands, Damping::None), || {
+            EmissionTable::integrate(first, bands).into_iter().map(Arc::new).collect()
+        });
+        all[place].clone()
+    }
+
+    /// How many were made.
+    pub(crate) fn count(&self) -> u64 {
+        self.0.count()
+    }
+}
+
 /// (l, m) of the coefficients, in order: m ≥ 0, l + m even.
 pub fn terms(bands: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..bands).flat_map(|l| (0..=l).filter(move |m| (l + m) % 2 == 0).map(move |m| (l, m)))
 }
 
 impl EmissionTable {
-    /// The table for a shape and a number of bands; made once in a process.
+    /// Those of [`EmissionTables::shared`].
     pub fn of(shape: impl Into<LobeShape>, bands: usize) -> Arc<Self> {
-        static TABLES: Cache<Vec<Arc<EmissionTable>>> = Cache::new();
-        let (first, place) = shape.into().place();
-        let all = TABLES.get((first, bands, Damping::None), || {
-            Self::integrate(first, bands).into_iter().map(Arc::new).collect()
-        });
-        all[place].clone()
+        EmissionTables::shared().get(shape.into(), bands)
     }
 
     /// Those of all shapes of a reflectance.

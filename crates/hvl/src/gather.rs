@@ -9,12 +9,10 @@ use manylights_harmonics::wgsl::{self, Function};
 use manylights_scene::{Brdf, Lobe, Material, Scene};
 use manylights_virtual_lights::{LightBatches, LightGather, Lights, VirtualSphere};
 
-use crate::emission::{self, EmissionTable};
+use crate::emission::{self, EmissionTables};
 use crate::light_record::{GlossyLight, LambertLight, rounded_shape};
 use crate::{Horizon, Settings};
-use manylights_reflectance::lobes::LobeTable;
-use manylights_reflectance::zonal::ZonalTable;
-use manylights_reflectance::{Form, LobeShape, RECEIVER, diffuse, lobe_wgsl};
+use manylights_reflectance::{Form, LobeShape, RECEIVER, Tables, diffuse, lobe_wgsl};
 
 /// Spheres a batch, as `shaders/gather.wesl` declares its array.
 pub(crate) const CAPACITY: usize = 512;
@@ -147,28 +145,33 @@ impl Materials {
         [false, lights].map(|lights| Lobes { receivers, lights, colored, exact_fresnel, measured })
     }
 
-    /// As bindings 5 to 7.
-    fn tables(&self, gpu: &Gpu, settings: &Settings) -> Result<Vec<Buffer>, Error> {
+    /// Their tables among these, on the adapter, as bindings 5 to 7.
+    pub(crate) fn tables(
+        &self,
+        gpu: &Gpu,
+        settings: &Settings,
+        (receivers, emissions): (&Tables, &EmissionTables),
+    ) -> Result<Vec<Buffer>, Error> {
         if self.shapes.is_empty() {
             return Ok(Vec::new());
         }
-        let receivers = self.shapes.iter().flat_map(|&shape| {
+        let lobes = self.shapes.iter().flat_map(|&shape| {
             let Settings { bands, damping, .. } = *settings;
             match settings.form {
-                Form::Full => single(LobeTable::of(shape, bands, damping).values()),
-                Form::Zonal => single(ZonalTable::of(shape, bands, damping).values()),
+                Form::Full => single(receivers.lobes(shape, bands, damping).values()),
+                Form::Zonal => single(receivers.zonal(shape, bands, damping).values()),
             }
         });
-        let receivers: Vec<_> = receivers.collect();
+        let lobes: Vec<_> = lobes.collect();
         let shapes: Vec<_> = self.shapes.iter().map(|shape| shape.record()).collect();
-        let mut tables = vec![gpu.storage("shapes", &shapes)?, gpu.storage("lobes", &receivers)?];
+        let mut tables = vec![gpu.storage("shapes", &shapes)?, gpu.storage("lobes", &lobes)?];
         let bands = settings.emission_bands;
         // The adapter keeps kernels by their text: that of Lambertian lights, which is the same for all
         // bands of emission, must find the same bindings.
         if bands <= 1 {
             tables.push(gpu.storage("emissions", &[[0_f32; 2]])?);
         } else {
-            let rows = |&shape| single(EmissionTable::of(rounded_shape(shape), bands).values());
+            let rows = |&shape| single(emissions.get(rounded_shape(shape), bands).values());
             let rows: Vec<_> = self.shapes.iter().flat_map(rows).collect();
             tables.push(gpu.storage("emissions", &rows)?);
         }
@@ -214,6 +217,7 @@ pub(crate) fn gather(
     pixels: u32,
     camera: Vec3,
     materials: &Materials,
+    tables: Vec<Buffer>,
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
@@ -222,6 +226,6 @@ pub(crate) fn gather(
     let wgsl =
         [linked_shader(lambert, traced, settings)?, linked_shader(glossy, traced, settings)?];
     let wgsl = wgsl.each_ref().map(String::as_str);
-    let (view, tables) = (View { camera, pixels }, materials.tables(gpu, settings)?);
+    let view = View { camera, pixels };
     LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, tables, shadows)
 }

@@ -63,12 +63,14 @@ mod params;
 mod virtual_sphere;
 
 use glam::Vec3;
-use manylights_gpu::{Gpu, SurfaceRecord};
+use manylights_gpu::{Buffer, Gpu, SurfaceRecord};
 use manylights_harmonics::even_count;
 use manylights_method::{Error, ParameterInfo, Parameters};
+use manylights_reflectance::Tables;
 use manylights_virtual_lights::LightGather;
-use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun};
+use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun, SceneTables};
 
+use emission::EmissionTables;
 use gather::{CAPACITY, Materials};
 
 pub use gather::{Lobes, linked_shader};
@@ -89,20 +91,19 @@ impl Estimator for Hvl {
     const ID: &'static str = "hvl";
     const TITLE: &'static str = "harmonics virtual lights (Mézières et al. 2022)";
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
+    type Tables = LobeTables;
 
     fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
+        tables: &LobeTables,
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
         let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
         let materials = Materials::of_scene(scene);
-        if let Some(reason) = materials.declined(&settings) {
-            return Err(Error::Declined(reason.into()));
-        }
-        let shadows = frame.shadows()?;
-        let gather = gather::gather(gpu, pixels, eye, &materials, &settings, shadows)?;
+        let (shadows, tables) = (frame.shadows()?, tables.on_gpu.clone());
+        let gather = gather::gather(gpu, pixels, eye, &materials, tables, &settings, shadows)?;
         let products_a_pair = even_count(settings.bands) * materials.channels();
         let products_a_batch = u64::from(pixels) * (CAPACITY * products_a_pair) as u64;
         let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
@@ -111,6 +112,30 @@ impl Estimator for Hvl {
             Ok((gather::batches(gather, &lights, &materials, &settings)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
+    }
+}
+
+/// The lobes of a scene's materials on the adapter: the bake.
+pub struct LobeTables {
+    on_gpu: Vec<Buffer>,
+    count: u64,
+}
+
+impl SceneTables for LobeTables {
+    fn new(frame: &ManyLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
+        let settings = Settings::new(parameters);
+        let materials = Materials::of_scene(frame.scene);
+        if let Some(reason) = materials.declined(&settings) {
+            return Err(Error::Declined(reason.into()));
+        }
+        let (receivers, emissions) = (Tables::new(), EmissionTables::new());
+        let gpu = frame.on_gpu.gpu();
+        let on_gpu = materials.tables(gpu, &settings, (&receivers, &emissions))?;
+        Ok(Self { on_gpu, count: receivers.count() + emissions.count() })
+    }
+
+    fn count(&self) -> u64 {
+        self.count
     }
 }
 
@@ -129,7 +154,9 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
     let materials = Materials::new(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &materials, settings, None)?;
+    let tables = materials.tables(gpu, settings, (Tables::shared(), EmissionTables::shared()))?;
+    let pixels = surfaces.len() as u32;
+    let gather = gather::gather(gpu, pixels, camera, &materials, tables, settings, None)?;
     let batches = gather::batches(&gather, lights, &materials, settings)?;
     gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
     gather.radiance()

@@ -8,7 +8,7 @@ use manylights_virtual_lights::VirtualSphere;
 use crate::emission;
 use manylights_reflectance::LobeShape;
 
-/// The sphere with its light as [`GlossyLight`] holds it, where it lies on a glossy surface: directions
+/// The sphere with its light as `GlossyLight` holds it, where it lies on a glossy surface: directions
 /// to 6.5e-5, reflectances and the inverse of an index of refraction to 8e-6.
 pub fn rounded(sphere: &VirtualSphere) -> VirtualSphere {
     let mut light = sphere.light;

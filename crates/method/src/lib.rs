@@ -1,8 +1,10 @@
 //! The trait that every rendering method implements, and what it is told.
 //!
 //! A method never sees the clock, the budget, the reference or the file system. It is progressive:
-//! [`Method::prepare`], then [`Run::step`] until it says that it is done, then [`Run::resolve`].
+//! [`Method::prepare`], then [`Run::step`] until it says that it is done, then [`Run::resolve`]. What
+//! further frames may reuse is its [`Bake`].
 
+mod bake;
 mod cost;
 mod parameters;
 
@@ -10,6 +12,7 @@ use manylights_gpu::GpuFrame;
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Camera, Scene, Transport, Visibility};
 
+pub use bake::{Bake, Baking, Dependencies};
 pub use cost::{Amounts, Cost, Direction};
 pub use parameters::{ChoiceWord, ParameterInfo, ParameterKind, ParameterValue, Parameters};
 
@@ -106,8 +109,13 @@ pub trait Method: Sync {
     /// curve of error against time. Its cost is then a count, the one that [`Progress`] tells of.
     fn is_progressive(&self) -> bool;
 
+    /// How it bakes what further frames reuse; `None` where there is nothing.
+    fn baking(&self) -> Option<&dyn Baking> {
+        None
+    }
+
     /// Checks that the method can make this picture and sets up what does not depend on the amount
-    /// of work: pipelines, acceleration structures.
+    /// of work: pipelines, acceleration structures. A method that bakes does so, for this one frame.
     ///
     /// # Errors
     /// [`Error::Declined`] with a reason where the scene or transport is not the method's.

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::Window;
+
 /// A picture that cannot be read, written or compared. Each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -28,6 +30,17 @@ pub enum Error {
         image: [u32; 2],
         /// Width and height of the reference in pixels.
         reference: [u32; 2],
+    },
+    /// Two pictures of one size that lie elsewhere.
+    #[error(
+        "the image starts at {image}, the reference at {reference}: their pixels do not lie on each \
+         other; bring both to one frame (oiiotool --croptofull)"
+    )]
+    Windows {
+        /// Where the image lies.
+        image: Window,
+        /// Where the reference lies.
+        reference: Window,
     },
     /// Pixels that are infinite or not a number.
     #[error(

@@ -14,8 +14,9 @@ use exr::prelude::{
     ReadSpecificChannel, SpecificChannels, Vec2, WritableImage,
 };
 
+use crate::exr_window::check_colors;
 use crate::file::write_atomically;
-use crate::{Error, RadianceImage};
+use crate::{Error, RadianceImage, Window};
 
 /// 8192 × 8192: 805 MB. A header can claim 2⁶⁰.
 const MAX_PIXELS: usize = 1 << 26;
@@ -27,28 +28,16 @@ const MAX_COMPRESSION: u64 = 2048;
 impl RadianceImage {
     /// Reads the channels `R`, `G` and `B` (half, float or unsigned integer) of the first layer that
     /// has them, at full resolution; other channels and layers are skipped, as is the position of
-    /// the data window. A pixel that a damaged file never sets is NaN.
+    /// the data window (not so by [`read_exr_pair`]). A pixel that a damaged file never sets is NaN.
     ///
     /// The size that the header claims is checked against the length of the file before anything is
     /// allocated.
     ///
     /// # Errors
     /// One line where the file cannot be read, is damaged, has no such layer, is deep, subsampled or
-    /// DWA-compressed, or has more than 2²⁶ pixels.
+    /// DWA-compressed, has more than 2²⁶ pixels, or says that its primaries are not those of Rec. 709.
     pub fn read_exr(path: &Path) -> Result<Self, Error> {
-        let read = || -> exr::error::Result<Self> {
-            let file = File::open(path)?;
-            let length = file.metadata()?.len();
-            let chunks = exr::block::read(BufReader::new(file), false)?;
-            check_channels(chunks.headers())?;
-            chunks.headers().iter().try_for_each(|header| check_size(header, length))?;
-            decode(chunks)
-        };
-        // exr 1.74 panics on some damaged files, such as a short block of B44.
-        match catch_unwind(read) {
-            Ok(result) => result.map_err(|error| Error::read(path, error)),
-            Err(_) => Err(Error::read(path, "the file is damaged")),
-        }
+        read(path).map(|(image, _)| image)
     }
 
     /// Writes 32-bit floats, losslessly compressed, with each `(name, text)` of `attributes` as a
@@ -72,6 +61,38 @@ impl RadianceImage {
     }
 }
 
+/// Reads a picture and what it is to be compared with, as [`RadianceImage::read_exr`] does.
+///
+/// # Errors
+/// Also where both have one size but lie in different places of their frames, or in different frames.
+/// (Pictures of different sizes are read: comparing them is refused.)
+pub fn read_exr_pair(image: &Path, reference: &Path) -> Result<[RadianceImage; 2], Error> {
+    let [(image, at), (reference, reference_at)] = [read(image)?, read(reference)?];
+    let same_size = (image.width, image.height) == (reference.width, reference.height);
+    if same_size && at != reference_at {
+        return Err(Error::Windows { image: at, reference: reference_at });
+    }
+    Ok([image, reference])
+}
+
+fn read(path: &Path) -> Result<(RadianceImage, Window), Error> {
+    let read = || -> exr::error::Result<_> {
+        let file = File::open(path)?;
+        let length = file.metadata()?.len();
+        let chunks = exr::block::read(BufReader::new(file), false)?;
+        let header = shown(chunks.headers())?;
+        check_colors(header)?;
+        let window = Window::of(header);
+        chunks.headers().iter().try_for_each(|header| check_size(header, length))?;
+        Ok((decode(chunks)?, window))
+    };
+    // exr 1.74 panics on some damaged files, such as a short block of B44.
+    match catch_unwind(read) {
+        Ok(result) => result.map_err(|error| Error::read(path, error)),
+        Err(_) => Err(Error::read(path, "the file is damaged")),
+    }
+}
+
 /// The attributes of a layer, all of them text.
 pub(crate) fn layer_attributes(
     path: &Path,
@@ -88,13 +109,13 @@ pub(crate) fn layer_attributes(
     Ok(layer_attributes)
 }
 
-fn check_channels(headers: &[Header]) -> exr::error::Result<()> {
+/// The header of the layer that [`decode`] reads: the first with the channels of a picture.
+fn shown(headers: &[Header]) -> exr::error::Result<&Header> {
     let has =
         |header: &Header, name: &str| header.channels.find_index_of_channel(&name.into()).is_some();
-    if headers.iter().any(|header| ["R", "G", "B"].iter().all(|name| has(header, name))) {
-        return Ok(());
-    }
-    Err(exr::error::Error::Invalid("no layer has the channels R, G and B".into()))
+    let shows = |header: &&Header| ["R", "G", "B"].iter().all(|name| has(header, name));
+    let missing = || exr::error::Error::Invalid("no layer has the channels R, G and B".into());
+    headers.iter().find(shows).ok_or_else(missing)
 }
 
 /// Refuses a layer that is larger than its file of `length` bytes could fill, or than we allow.

@@ -10,7 +10,7 @@ use crate::RadianceImage;
 /// picture, made to be shown at exposure 1. Pixels that are not finite in either picture are NaN.
 ///
 /// # Panics
-/// Where the sizes differ; [`crate::compare`] reports that as an error.
+/// Where the sizes differ; [`crate::compare()`] reports that as an error.
 pub fn false_color(image: &RadianceImage, reference: &RadianceImage, scale: f32) -> RadianceImage {
     let sizes = [image, reference].map(|picture| (picture.width, picture.height));
     assert_eq!(sizes[0], sizes[1], "pictures of one size");

@@ -10,7 +10,7 @@ const SIGMA: f64 = 1.5;
 const K1: f64 = 0.01;
 const K2: f64 = 0.03;
 
-/// Moments under the window: E[x], E[r], E[x²], E[r²], E[x r].
+/// Moments under the window: `E[x]`, `E[r]`, `E[x²]`, `E[r²]`, `E[x r]`.
 const MOMENTS: usize = 5;
 
 /// Mean of the index over the pixels whose window lies in the picture, then over the components.
@@ -23,8 +23,8 @@ pub(crate) fn mean(image: &RadianceImage, reference: &RadianceImage, range: f64)
     (mean_of(0) + mean_of(1) + mean_of(2)) / 3.0
 }
 
-/// One component less its mean over the picture. Variances are differences of moments, E[x²] − E[x]²,
-/// and lose the digits that a common offset takes; without it they keep them.
+/// One component less its mean over the picture. Variances are differences of moments,
+/// `E[x²] − E[x]²`, and lose the digits that a common offset takes; without it they keep them.
 struct Plane {
     width: usize,
     offset: f64,

@@ -5,46 +5,10 @@ mod common;
 use std::fs;
 use std::path::Path;
 
+use common::exr_files::{SIZE, encoding, folder, layer, message};
 use common::{gradient, map, next, noise};
-use exr::prelude::{
-    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer,
-    LayerAttributes, LineOrder, Vec2, WritableImage, f16,
-};
+use exr::prelude::{Blocks, Compression, Encoding, Image, Vec2, WritableImage, f16};
 use manylights_metrics::{Error, RadianceImage, write_exr_layers};
-use tempfile::TempDir;
-
-const SIZE: [usize; 2] = [37, 19];
-
-fn folder() -> TempDir {
-    tempfile::tempdir().expect("a temporary folder")
-}
-
-fn message(path: &Path) -> String {
-    let text = RadianceImage::read_exr(path).expect_err("unreadable").to_string();
-    assert!(!text.contains('\n'), "more than one line: {text}");
-    text
-}
-
-fn encoding(compression: Compression, blocks: Blocks) -> Encoding {
-    Encoding { compression, blocks, line_order: LineOrder::Increasing }
-}
-
-/// A layer whose channels all hold the values 0, 1, 2, … times their index from 1.
-fn layer(name: &str, channels: &[&str], encoding: Encoding) -> Layer<AnyChannels<FlatSamples>> {
-    let count = (SIZE[0] * SIZE[1]) as u32;
-    let list = channels.iter().zip(1_u32..).map(|(&name, factor)| {
-        let samples = match name {
-            "R" => {
-                FlatSamples::F16((0..count).map(|i| f16::from_f32((i * factor) as f32)).collect())
-            }
-            "G" => FlatSamples::U32((0..count).map(|i| i * factor).collect()),
-            _ => FlatSamples::F32((0..count).map(|i| (i * factor) as f32).collect()),
-        };
-        AnyChannel::new(name, samples)
-    });
-    let attributes = LayerAttributes::named(name);
-    Layer::new(Vec2(SIZE[0], SIZE[1]), attributes, encoding, AnyChannels::sort(list.collect()))
-}
 
 #[test]
 fn layers_are_named_channels_of_one_part() {

@@ -164,6 +164,7 @@ fn the_content_hash_sees_what_matters() {
     renamed.name.push('x');
     renamed.exposure *= 2.0;
     renamed.notes.push("x".into());
+    renamed.sources.push("x".into());
     assert_eq!(hash(&renamed), original);
 }
 

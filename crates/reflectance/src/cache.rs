@@ -1,4 +1,4 @@
-//! Tables by what they depend on: each is made once in a process.
+//! Tables by what they depend on.
 
 use std::sync::{Arc, Mutex, MutexGuard};
 
@@ -7,7 +7,7 @@ use crate::{Damping, LobeShape};
 /// Shape as bits, bands, window.
 type Key = ([u32; 3], usize, Damping);
 
-/// A list: pictures have few materials.
+/// Each is made once. A list: pictures have few materials.
 pub struct Cache<T>(Mutex<Vec<(Key, Arc<T>)>>);
 
 impl<T> Default for Cache<T> {
@@ -39,6 +39,11 @@ impl<T> Cache<T> {
             tables.push((key, table.clone()));
             table
         })
+    }
+
+    /// How many were made.
+    pub fn count(&self) -> u64 {
+        self.lock().len() as u64
     }
 
     fn lock(&self) -> MutexGuard<'_, Vec<(Key, Arc<T>)>> {

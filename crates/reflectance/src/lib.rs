@@ -10,12 +10,14 @@ mod lobe_quadrature;
 mod lobe_shape;
 pub mod lobe_wgsl;
 pub mod lobes;
+mod tables;
 pub mod zonal;
 
 pub use cache::Cache;
 pub use expansion::{Damping, Form};
 pub use lobe_quadrature::{Fixed, LobeQuadrature};
 pub use lobe_shape::LobeShape;
+pub use tables::Tables;
 
 /// The WESL module `receiver`: a pixel's reflectance as gathers keep it. It imports the modules that
 /// [`lobe_wgsl::module`] and [`diffuse::module`] make.

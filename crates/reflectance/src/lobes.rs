@@ -6,14 +6,11 @@
 //! on the index too, and B = 0. A measurement takes two tables: A and B are red and green of the one,
 //! blue and nothing of the other.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 use manylights_harmonics::{Basis, count, even_count, even_index, index};
 use rayon::prelude::*;
 
 use crate::LobeShape;
-use crate::cache::Cache;
 use crate::expansion::Damping;
 use crate::lobe_quadrature::{Fixed, LobeQuadrature};
 
@@ -39,23 +36,6 @@ pub struct LobeTable {
 }
 
 impl LobeTable {
-    /// The table for a shape, a number of bands and a window; made once in a process.
-    pub fn of(shape: impl Into<LobeShape>, bands: usize, damping: Damping) -> Arc<Self> {
-        let shape = shape.into();
-        static PLAIN: Cache<Vec<Arc<LobeTable>>> = Cache::new();
-        static WINDOWED: Cache<LobeTable> = Cache::new();
-        let (first, place) = shape.place();
-        let all = PLAIN.get((first, bands, Damping::None), || {
-            Self::integrate(first, bands, NODES).into_iter().map(Arc::new).collect()
-        });
-        let plain = all[place].clone();
-        if damping == Damping::None {
-            return plain;
-        }
-        let colors = if shape.is_measured() { CHANNELS } else { DAMPED };
-        WINDOWED.get((shape, bands, damping), || plain.damped(damping, colors))
-    }
-
     /// Those of all shapes of a reflectance ([`LobeShape::of_measurement`]; one, if it is none), by
     /// quadrature; `nodes` in the polar angle of the half vector, and in half a turn.
     pub fn integrate(shape: impl Into<LobeShape>, bands: usize, nodes: [usize; 2]) -> Vec<Self> {
@@ -66,8 +46,10 @@ impl LobeTable {
         shape.pairs(&lobes).into_iter().map(|values| Self { bands, values }).collect()
     }
 
-    /// The same under a window, for each row the strongest of those for some reflectances.
-    fn damped(&self, damping: Damping, reflectances: [[f64; 2]; 2]) -> Self {
+    /// The same, of this shape, under a window: for each row the strongest of those for some
+    /// reflectances.
+    pub(crate) fn damped(&self, shape: LobeShape, damping: Damping) -> Self {
+        let reflectances = if shape.is_measured() { CHANNELS } else { DAMPED };
         let rows = self.values.par_chunks(even_count(self.bands));
         let damp = |row: &[[f64; 2]]| {
             let weights = reflectances.map(|[f0, f90]| {

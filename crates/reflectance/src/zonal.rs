@@ -5,14 +5,11 @@
 //! nearest to the cosine-weighted lobe in the mean square, whatever its reflectance.
 
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 use manylights_harmonics::{Basis, count, even_count, even_index, index};
 use rayon::prelude::*;
 
-use crate::cache::Cache;
 use crate::lobes::{ANGLES, LobeTable, interpolated};
-use crate::{Damping, LobeShape};
 
 /// Golden sections of the axis: 0.618³² of two degrees is 7e-9 rad, and a maximum is flat.
 const SECTIONS: usize = 32;
@@ -26,14 +23,8 @@ pub struct ZonalTable {
 }
 
 impl ZonalTable {
-    /// The nearest circular lobes to [`LobeTable::of`]; made once in a process.
-    pub fn of(shape: impl Into<LobeShape>, bands: usize, damping: Damping) -> Arc<Self> {
-        let shape = shape.into();
-        static TABLES: Cache<ZonalTable> = Cache::new();
-        TABLES.get((shape, bands, damping), || Self::new(&LobeTable::of(shape, bands, damping)))
-    }
-
-    fn new(lobes: &LobeTable) -> Self {
+    /// The nearest circular lobes to those of a table.
+    pub(crate) fn new(lobes: &LobeTable) -> Self {
         let bands = lobes.bands();
         let basis = Basis::new(bands);
         let rows = lobes.values().par_chunks(even_count(bands));

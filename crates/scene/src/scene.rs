@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
@@ -46,6 +48,9 @@ pub struct Scene {
     pub exposure: f32,
     /// What import changed, dropped or made up, in words for the user.
     pub notes: Vec<String>,
+    /// The files that it was made from, and those that these name, read or not: nothing may be written
+    /// over them. No part of the picture.
+    pub sources: Vec<PathBuf>,
 }
 
 impl Scene {

@@ -2,45 +2,9 @@
 
 mod common;
 
-use common::triangle::{data_uri, load_json, noted, triangle};
+use common::triangle::{accessor, attribute, floats, load_with, noted, two_texels};
 use glam::{Vec2, Vec3, vec2, vec3};
-use manylights_scene::Scene;
-use serde_json::{Value, json};
-
-/// Changes the triangle and loads it.
-fn load_with(change: impl FnOnce(&mut Value)) -> Scene {
-    let mut root = triangle();
-    change(&mut root);
-    let scene = load_json(&root).unwrap_or_else(|error| panic!("{error}"));
-    common::check_invariants(&scene, "import");
-    scene
-}
-
-/// Adds an accessor over data of its own and returns its index.
-fn accessor(root: &mut Value, component: u32, shape: &str, count: usize, bytes: &[u8]) -> usize {
-    let push = |root: &mut Value, list: &str, value: Value| {
-        let list = root[list].as_array_mut().expect("is one");
-        list.push(value);
-        list.len() - 1
-    };
-    let buffer = json!({ "byteLength": bytes.len(), "uri": data_uri(bytes) });
-    let buffer = push(root, "buffers", buffer);
-    let view = json!({ "buffer": buffer, "byteLength": bytes.len() });
-    let view = push(root, "bufferViews", view);
-    let accessor = json!({
-        "bufferView": view, "componentType": component, "type": shape, "count": count,
-        "normalized": component != 5126 && shape != "SCALAR",
-    });
-    push(root, "accessors", accessor)
-}
-
-fn floats(values: &[f32]) -> Vec<u8> {
-    values.iter().flat_map(|value| value.to_le_bytes()).collect()
-}
-
-fn attribute(root: &mut Value, name: &str, accessor: usize) {
-    root["meshes"][0]["primitives"][0]["attributes"][name] = json!(accessor);
-}
+use serde_json::json;
 
 #[test]
 fn transforms_compose_from_the_root() {
@@ -114,15 +78,6 @@ fn cameras_look_along_minus_z() {
     assert_eq!((camera.position, camera.vertical_fov), (vec3(1e4, 2.0, 3.0), 0.9));
 }
 
-/// A PNG of 2 × 1 texels.
-fn two_texels(left: [u8; 3], right: [u8; 3]) -> Value {
-    let mut png = std::io::Cursor::new(Vec::new());
-    let pixels = [left, right].concat();
-    let image = image::RgbImage::from_raw(2, 1, pixels).expect("2 × 1 × 3 bytes");
-    image.write_to(&mut png, image::ImageFormat::Png).expect("can encode");
-    json!({ "uri": data_uri(&png.into_inner()) })
-}
-
 #[test]
 fn materials_textures_and_coordinate_sets() {
     let scene = load_with(|root| {
@@ -172,33 +127,4 @@ fn materials_textures_and_coordinate_sets() {
     assert_eq!((scene.textures[0].width, scene.textures[0].height), (2, 1));
     let left = material.base_color_at(&scene.textures, vec2(0.25, 0.5));
     assert!(left.abs_diff_eq(vec3(0.5, 0.0, 0.0), 1e-6), "{left}");
-}
-
-#[test]
-fn what_is_not_drawn_is_noted() {
-    let scene = load_with(|root| {
-        let colors = accessor(root, 5126, "VEC3", 3, &floats(&[1.0; 9]));
-        attribute(root, "COLOR_0", colors);
-        root["extensionsUsed"] = json!(["KHR_texture_transform", "KHR_materials_ior"]);
-        root["materials"] = json!([{ "alphaMode": "MASK" }]);
-        root["meshes"][0]["primitives"][0]["material"] = json!(0);
-        let line = json!({ "attributes": { "POSITION": 0 }, "mode": 1 });
-        root["meshes"][0]["primitives"].as_array_mut().expect("is one").push(line);
-        let lens = json!({ "xmag": 1, "ymag": 1, "zfar": 2, "znear": 1 });
-        root["cameras"] = json!([{ "type": "orthographic", "orthographic": lens }]);
-        root["nodes"][0]["camera"] = json!(0);
-    });
-    assert_eq!(
-        scene.notes,
-        [
-            "extension KHR_texture_transform ignored: 1",
-            "materials with an alpha mask, drawn opaque: 1",
-            "orthographic cameras left out: 1",
-            "primitives of points or lines left out: 1",
-            "primitives whose vertex colours are ignored: 1",
-            "primitives without normals, flat ones computed: 1",
-            "no light: every picture is black",
-            "no camera: framed from outside",
-        ]
-    );
 }

@@ -71,6 +71,40 @@ fn percent_encoded_uris_are_decoded() {
     assert_eq!(scene.triangles.len(), 1);
 }
 
+/// Nothing may be written over them: also those that import does not read.
+#[test]
+fn files_that_a_scene_names() {
+    let (folder, mut root) = (tempfile::tempdir().expect("a temporary folder"), triangle());
+    root["images"] = json!([{ "uri": "read.png" }, { "uri": "%C3%A4/../un%20read.png" }, { "uri": "../up.jpg" }]);
+    root["textures"] = json!([{ "source": 0 }, { "source": 1 }, { "source": 2 }]);
+    root["materials"] = json!([{
+        "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } },
+        "normalTexture": { "index": 1 },
+        "occlusionTexture": { "index": 2 },
+    }]);
+    root["meshes"][0]["primitives"][0]["material"] = json!(0);
+    root["extensions"] = json!({ "VENDOR_sky": { "uri": "sky.hdr" } });
+    root["extras"] = json!({ "uri": "nobodys.business" });
+    let image = image::RgbImage::new(1, 1);
+    image.save(folder.path().join("read.png")).expect("can write");
+    let (gltf, toml) = (folder.path().join("a.gltf"), folder.path().join("a.toml"));
+    std::fs::write(&gltf, root.to_string()).expect("can write");
+    std::fs::write(&toml, "about = \"a\"\nsource = \"a.gltf\"").expect("can write");
+    let mut expected: Vec<_> = ["a.gltf", "sky.hdr", "read.png", "ä/../un read.png", "../up.jpg"]
+        .map(|name| folder.path().join(name))
+        .into();
+    let mut sources = load(gltf.to_str().expect("UTF-8"), None).expect("valid").sources;
+    sources.sort();
+    expected.sort();
+    assert_eq!(sources, expected);
+    expected.push(toml.clone());
+    let mut sources = load(toml.to_str().expect("UTF-8"), None).expect("valid").sources;
+    sources.sort();
+    expected.sort();
+    assert_eq!(sources, expected);
+    assert!(load("trio", None).expect("built-in").sources.is_empty());
+}
+
 #[test]
 fn lights_cameras_and_materials() {
     fn light(root: &mut Value, light: Value) {

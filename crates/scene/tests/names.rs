@@ -29,4 +29,28 @@ fn scene_files_below_the_current_directory_have_names() {
     assert_eq!((scene.name.as_str(), scene.exposure), ("hall", 3.0));
     let line = common::check_line(&load("hal", None).expect_err("unknown"));
     assert!(line.contains("did you mean `hall`?"), "{line}");
+
+    // A name that two have is neither's.
+    std::fs::write("scenes/cornell.toml", "about = \"mine\"\nsource = \"builtin:trio\"")
+        .expect("can write");
+    let line = common::check_line(&load("cornell", None).expect_err("which?"));
+    let file = std::path::Path::new("scenes").join("cornell.toml").display().to_string();
+    assert!(
+        line.contains(&format!("built-in scene and {file} too; say builtin:cornell or {file}")),
+        "{line}"
+    );
+    let builtin = load("builtin:cornell", None).expect("by its full name");
+    let mine = load(&file, None).expect("by its path");
+    assert_eq!(
+        builtin.triangles.len(),
+        load("builtin:cornell-glossy", None).expect("is one").triangles.len()
+    );
+    assert_eq!(mine.triangles.len(), load("trio", None).expect("is one").triangles.len());
+    assert_ne!(builtin.triangles.len(), mine.triangles.len());
+    // The list calls each by a name that loads it.
+    let names: Vec<String> = list().into_iter().map(|entry| entry.name).collect();
+    assert!(names.contains(&"builtin:cornell".to_owned()) && names.contains(&file), "{names:?}");
+    assert!(!names.contains(&"cornell".to_owned()), "{names:?}");
+    let line = common::check_line(&load("builtin:cornel", None).expect_err("unknown"));
+    assert!(line.contains("did you mean `cornell`?"), "{line}");
 }

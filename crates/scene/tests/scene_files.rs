@@ -97,8 +97,11 @@ fn measurements_lie_beside_the_scene_file_or_among_the_assets() {
     let brdf = white.brdf(Vec3::ONE);
     assert!(matches!(brdf.lobe, Lobe::Measured(_)) && scene.has_specular());
 
+    assert_eq!(scene.sources, [path, folder.path().join("satin.bsdf")]);
+
     let (_folder, path) = write(&text("asset:satin.bsdf"));
     let scene = load(path.to_str().expect("UTF-8"), Some(folder.path())).expect("valid");
+    assert_eq!(scene.sources, [path, folder.path().join("satin.bsdf")]);
     assert!(scene.materials.iter().any(|material| material.brdf(Vec3::ONE) == brdf));
 }
 

@@ -15,7 +15,9 @@ mod virtual_sphere;
 
 pub use light_gather::{LightBatches, LightGather, Lights};
 pub use lit_texels::{LIT_TEXEL, LitTexel, LitTexels, lit_texels};
-pub use many_lights::{Estimator, ManyLightFrame, ManyLightRun, PlacedLights, VirtualLights};
+pub use many_lights::{
+    Estimator, ManyLightFrame, ManyLightRun, PlacedLights, SceneTables, VirtualLights,
+};
 pub use parameters::{LIGHTS, RADIUS, SCALE};
 pub use radius::{RadiusRule, radii};
 pub use rsm::{Map, MapCell, maps, scene_maps};

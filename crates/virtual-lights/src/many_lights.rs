@@ -3,7 +3,8 @@
 use glam::Vec3;
 use manylights_gpu::{GpuFrame, Shadows};
 use manylights_method::{
-    Cost, Error, Frame, Method, ParameterInfo, Parameters, PassTime, Processor, Progress, Run,
+    Bake, Baking, Cost, Dependencies, Error, Frame, Method, ParameterInfo, Parameters, PassTime,
+    Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Transport, Visibility};
@@ -15,22 +16,53 @@ use crate::parameters::COST;
 /// is alike for all of them, and [`VirtualLights`] makes them a [`Method`] of it: one indirect bounce of point-like primary lights; time
 /// and accuracy grow with the parameter [`LIGHTS`](crate::LIGHTS); the thesis casts no shadow rays; and
 /// half of the lights is half of the flux, so that only the last picture estimates anything.
-pub trait Estimator: Sync {
+pub trait Estimator: Sync + 'static {
     /// As [`Method::id`].
     const ID: &'static str;
     /// As [`Method::title`].
     const TITLE: &'static str;
     /// As [`Method::parameters`], [`LIGHTS`](crate::LIGHTS) among them.
     const PARAMETERS: &'static [ParameterInfo];
+    /// What it bakes; `()` where there is nothing.
+    type Tables: SceneTables;
 
-    /// As [`Method::prepare`], for a frame that virtual lights can render.
+    /// As [`Bake::prepare`], for a frame that virtual lights can render.
     ///
     /// # Errors
     /// [`Error::Declined`] with a reason where the scene is not the method's.
     fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
+        tables: &Self::Tables,
     ) -> Result<ManyLightRun<'a>, Error>;
+}
+
+/// What an estimator tabulates, on the processor, of the materials of a scene: the bake of methods with
+/// virtual lights.
+pub trait SceneTables: Sized + 'static {
+    /// Whether there are any.
+    const BAKED: bool = true;
+
+    /// Makes all of them anew.
+    ///
+    /// # Errors
+    /// [`Error::Declined`] with a reason where the scene is not the method's.
+    fn new(frame: &ManyLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error>;
+
+    /// How many were made.
+    fn count(&self) -> u64;
+}
+
+impl SceneTables for () {
+    const BAKED: bool = false;
+
+    fn new(_: &ManyLightFrame<'_>, _: &Parameters) -> Result<Self, Error> {
+        Ok(())
+    }
+
+    fn count(&self) -> u64 {
+        0
+    }
 }
 
 /// The method of an estimator.
@@ -66,12 +98,52 @@ impl<M: Estimator> Method for VirtualLights<M> {
         false
     }
 
+    fn baking(&self) -> Option<&dyn Baking> {
+        M::Tables::BAKED.then_some(self)
+    }
+
     fn prepare<'a>(
         &self,
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        Ok(Box::new(M::start(ManyLightFrame::new(frame)?, parameters)?))
+        self.bake(frame, parameters)?.prepare(frame, parameters)
+    }
+}
+
+impl<M: Estimator> Baking for VirtualLights<M> {
+    fn depends_on(&self) -> Dependencies {
+        Dependencies { scene: true, ..Dependencies::default() }
+    }
+
+    fn processor(&self) -> Processor {
+        Processor::Cpu
+    }
+
+    fn bake(&self, frame: &Frame<'_>, parameters: &Parameters) -> Result<Box<dyn Bake>, Error> {
+        let tables = M::Tables::new(&ManyLightFrame::new(frame)?, parameters)?;
+        Ok(Box::new(Baked::<M>(tables)))
+    }
+}
+
+/// The tables of an estimator.
+struct Baked<M: Estimator>(M::Tables);
+
+impl<M: Estimator> Bake for Baked<M> {
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        Ok(Box::new(M::start(ManyLightFrame::new(frame)?, parameters, &self.0)?))
+    }
+
+    fn counters(&self) -> Vec<(&'static str, u64)> {
+        vec![("tables", self.0.count())]
+    }
+
+    fn pass_times(&self) -> Vec<PassTime> {
+        Vec::new()
     }
 }
 

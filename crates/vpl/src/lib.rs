@@ -42,10 +42,12 @@ impl Estimator for Vpl {
     const ID: &'static str = "vpl";
     const TITLE: &'static str = "virtual point lights (Keller 1997; RSM placement)";
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
+    type Tables = ();
 
     fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
+        _: &(),
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
         let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;

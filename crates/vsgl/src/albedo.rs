@@ -10,9 +10,12 @@ use manylights_scene::{Brdf, DBrdf, Lobe};
 /// Roughnesses and cosines of the table, both from 0 to 1, as `shaders/emission.wesl` knows.
 pub(crate) const NODES: usize = 32;
 
+/// What [`albedos`] makes, for the oracle and single groups.
+pub(crate) static ALBEDOS: LazyLock<Vec<[f32; 2]>> = LazyLock::new(albedos);
+
 /// Rows of one roughness √α, columns of one cosine of the incoming direction: the albedo is
 /// f0·x + f90·y.
-pub(crate) static ALBEDOS: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
+pub(crate) fn albedos() -> Vec<[f32; 2]> {
     let node = |index: usize| index as f64 / (NODES - 1) as f64;
     let places = (0..NODES * NODES).map(|index| (node(index / NODES), node(index % NODES)));
     // A mirror, and light along the surface, as limits.
@@ -20,7 +23,7 @@ pub(crate) static ALBEDOS: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
         .map(|(roughness, cosine)| albedo(roughness.max(1e-2).powi(2), cosine.max(1e-4)))
         .map(|albedo| albedo.as_vec2().to_array())
         .collect()
-});
+}
 
 /// Cells of the quadrature over visible normals: rings and half-turns.
 const RINGS: u32 = 48;

@@ -10,7 +10,7 @@ use manylights_scene::{Brdf, Scene};
 use manylights_virtual_lights::{LIT_TEXEL, LitTexel, LitTexels, lit_texels, scene_maps};
 
 use crate::Settings;
-use crate::albedo::{ALBEDOS, ExactLobe, exact_lobes};
+use crate::albedo::{ALBEDOS, albedos, exact_lobes};
 
 /// One spherical Gaussian that emits from a cloud of places, as `shaders/filter.wesl` writes it.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -62,30 +62,38 @@ impl GaussianLight {
 }
 
 /// What the filter must know of the materials of its texels.
+#[derive(Clone)]
 pub(crate) struct Materials {
     pub(crate) kinds: Reflectances,
-    exact_lobes: Vec<ExactLobe>,
+    /// What the filter reads, on the adapter.
+    tables: Vec<Buffer>,
+    /// Tables that were made: an exact lobe has one of its own.
+    pub(crate) count: u64,
 }
 
 impl Materials {
-    pub(crate) fn of_scene(scene: &Scene) -> Self {
-        Self::of(scene.materials.iter().map(|material| material.brdf(material.base_color)))
+    pub(crate) fn of_scene(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
+        let brdfs = scene.materials.iter().map(|material| material.brdf(material.base_color));
+        Self::of(gpu, brdfs, albedos)
     }
 
-    fn of(brdfs: impl Iterator<Item = Brdf> + Clone) -> Self {
-        Self { kinds: Reflectances::of(brdfs.clone()), exact_lobes: exact_lobes(brdfs) }
-    }
-
-    /// The tables that the filter reads.
-    fn tables(&self, gpu: &Gpu) -> Result<Vec<Buffer>, Error> {
-        let mut tables = Vec::new();
-        if self.kinds.specular {
-            tables.push(gpu.storage("albedos", &ALBEDOS)?);
+    fn of(
+        gpu: &Gpu,
+        brdfs: impl Iterator<Item = Brdf> + Clone,
+        albedos: impl FnOnce() -> Vec<[f32; 2]>,
+    ) -> Result<Self, Error> {
+        let kinds = Reflectances::of(brdfs.clone());
+        let (mut tables, mut count) = (Vec::new(), 0);
+        if kinds.specular {
+            tables.push(gpu.storage("albedos", &albedos())?);
+            count += 1;
         }
-        if self.kinds.exact_fresnel {
-            tables.push(gpu.storage("exact lobes", &self.exact_lobes)?);
+        if kinds.exact_fresnel {
+            let lobes = exact_lobes(brdfs);
+            tables.push(gpu.storage("exact lobes", &lobes)?);
+            count += lobes.len() as u64;
         }
-        Ok(tables)
+        Ok(Self { kinds, tables, count })
     }
 }
 
@@ -110,7 +118,8 @@ pub fn gaussian_lights(
     settings: &Settings,
     seed: u64,
 ) -> Result<(Vec<GaussianLight>, Vec<PassTime>), Error> {
-    lights_of_materials(frame, scene, &Materials::of_scene(scene), settings, seed)
+    let materials = Materials::of_scene(frame.gpu(), scene)?;
+    lights_of_materials(frame, scene, &materials, settings, seed)
 }
 
 /// [`gaussian_lights`] of a scene whose materials are known.
@@ -148,7 +157,8 @@ pub fn filter_group(
     let side = texels.len().isqrt();
     assert_eq!(side * side, texels.len(), "a group is a square of texels");
     let (surfaces, lit): (Vec<_>, Vec<_>) = texels.iter().copied().unzip();
-    let materials = Materials::of(surfaces.iter().map(SurfaceRecord::brdf));
+    let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
+    let materials = Materials::of(gpu, brdfs, || ALBEDOS.clone())?;
     let texels = LitTexels {
         surfaces: gpu.storage("surfaces", &surfaces)?,
         texels: gpu.storage("lit texels", &lit)?,
@@ -173,9 +183,8 @@ fn filter(
     let mut bindings = vec![Binding::Uniform, Binding::Storage, Binding::Storage];
     bindings.extend([Binding::StorageMut; 2]);
     let mut buffers: Vec<&Buffer> = vec![&sides, &map.surfaces, &map.texels, &lobes, &centers];
-    let tables = materials.tables(gpu)?;
-    bindings.resize(bindings.len() + tables.len(), Binding::Storage);
-    buffers.extend(&tables);
+    bindings.resize(bindings.len() + materials.tables.len(), Binding::Storage);
+    buffers.extend(&materials.tables);
     let kernel = gpu.kernel("filter", &filter_shader(&materials.kinds)?, &bindings)?;
     let resources: Vec<_> = buffers.into_iter().map(Resource::Buffer).collect();
     let times = gpu.run(&[Dispatch {

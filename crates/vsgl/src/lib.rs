@@ -67,7 +67,7 @@ use glam::Vec3;
 use manylights_gpu::{Gpu, Reflectances, SurfaceRecord};
 use manylights_method::{Error, ParameterInfo, Parameters};
 use manylights_virtual_lights::LightGather;
-use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun};
+use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun, SceneTables};
 
 use gather::LAMBERT_CAPACITY;
 use gaussian_light::{Materials, lights_of_materials};
@@ -88,21 +88,17 @@ impl Estimator for Vsgl {
     const ID: &'static str = "vsgl";
     const TITLE: &'static str = "virtual spherical Gaussian lights (Tokuyoshi 2015)";
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
+    type Tables = AlbedoTables;
 
     fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
+        AlbedoTables(materials): &AlbedoTables,
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
         let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
-        let materials = Materials::of_scene(scene);
-        if !materials.kinds.measured.is_empty() {
-            return Err(Error::Declined(
-                "has circular lobes alone and knows no measured materials; this scene has some"
-                    .into(),
-            ));
-        }
+        let materials = materials.clone();
         let shadows = frame.shadows()?;
         let gather = gather::gather(gpu, pixels, eye, &materials.kinds, &settings, shadows)?;
         let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
@@ -111,6 +107,25 @@ impl Estimator for Vsgl {
             Ok((gather::batches(gather, &lights)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
+    }
+}
+
+/// The albedos of a scene's specular lobes on the adapter: the bake.
+pub struct AlbedoTables(Materials);
+
+impl SceneTables for AlbedoTables {
+    fn new(frame: &ManyLightFrame<'_>, _: &Parameters) -> Result<Self, Error> {
+        if !Reflectances::of_scene(frame.scene).measured.is_empty() {
+            return Err(Error::Declined(
+                "has circular lobes alone and knows no measured materials; this scene has some"
+                    .into(),
+            ));
+        }
+        Ok(Self(Materials::of_scene(frame.on_gpu.gpu(), frame.scene)?))
+    }
+
+    fn count(&self) -> u64 {
+        self.0.count
     }
 }
 

@@ -68,10 +68,12 @@ impl Estimator for Vsl {
     const ID: &'static str = "vsl";
     const TITLE: &'static str = "virtual spherical lights (Hašan et al. 2009)";
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
+    type Tables = ();
 
     fn start<'a>(
         frame: ManyLightFrame<'a>,
         parameters: &Parameters,
+        _: &(),
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
         let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;

@@ -50,7 +50,7 @@ pub(crate) fn compare(before: &[Cell], now: &[Cell]) -> Vec<Moved> {
 fn groups(cells: &[Cell]) -> BTreeMap<String, Group<'_>> {
     let mut groups: BTreeMap<String, Group<'_>> = BTreeMap::new();
     for cell in cells.iter().filter(|cell| cell.inputs.repetition == 0) {
-        let name = format!("{} {}", cell.inputs.scene, cell.inputs.label());
+        let name = format!("{} {}", cell.inputs.view(), cell.inputs.label());
         groups.entry(name).or_default().insert(cell.inputs.seed, cell);
     }
     groups
@@ -87,7 +87,7 @@ fn compare_group(name: &str, before: &Group<'_>, now: &Group<'_>, moved: &mut Ve
     }
     if pairs.iter().all(|(old, _, new, _)| same_digits(&old.provenance, &new.provenance)) {
         let why = "deterministic on this processor and driver";
-        if let Some((a, b)) = changed(&|_, done| format!("{:?}", done.counters)) {
+        if let Some((a, b)) = changed(&|_, done| format!("{:?}", counts(done))) {
             moved.push(row(name, "counts", &a, &b, why));
         }
         if let Some((a, b)) = changed(&|_, done| done.image_sha256.clone()) {
@@ -99,9 +99,15 @@ fn compare_group(name: &str, before: &Group<'_>, now: &Group<'_>, moved: &mut Ve
     }
 }
 
+/// Counts of the frame and of its bake by name.
+fn counts(done: &Done) -> BTreeMap<String, u64> {
+    let baked = done.bake_counters.iter().map(|(name, &count)| (format!("baked {name}"), count));
+    done.counters.iter().map(|(name, &count)| (name.clone(), count)).chain(baked).collect()
+}
+
 /// Counts and errors by name.
 fn numbers(done: &Done) -> BTreeMap<String, f64> {
-    let counts = done.counters.iter().map(|(name, &count)| (name.clone(), count as f64));
+    let counts = counts(done).into_iter().map(|(name, count)| (name, count as f64));
     let errors = done.errors.iter();
     let errors =
         errors.map(|(reference, errors)| (format!("RMSE ({reference})"), errors.display.rmse));
@@ -149,7 +155,7 @@ mod tests {
     use super::*;
     use crate::measurement::cell::Comparison;
     use crate::measurement::inputs::Inputs;
-    use crate::question::plan::Budget;
+    use crate::question::plan::{Bounded, Budget};
     use manylights_metrics::Errors;
 
     fn cell(seed: u64, rmse: f64, program: &str) -> Cell {
@@ -160,6 +166,10 @@ mod tests {
         let done = Done {
             amount: 4.0,
             visibility: None,
+            bake_seconds: 0.0,
+            bake_pass_seconds: BTreeMap::new(),
+            bake_counters: BTreeMap::new(),
+            bake_shared: false,
             prepare_seconds: 0.0,
             step_seconds: 1.0,
             pass_seconds: BTreeMap::new(),
@@ -181,6 +191,8 @@ mod tests {
             resolution: [16, 16],
             exposure: 1.0,
             references: BTreeMap::new(),
+            bounded: Bounded::Time,
+            camera: None,
         };
         let provenance = Provenance { cpu: program.into(), ..Provenance::here(None) };
         let key = inputs.key(&provenance);

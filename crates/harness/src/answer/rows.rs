@@ -50,6 +50,12 @@ pub(crate) struct Medians {
     pub(crate) seconds: Quartiles,
     /// Timed runs.
     pub(crate) runs: usize,
+    /// Of what the frames were baked from; 0 where nothing is baked.
+    pub(crate) bake_seconds: f64,
+    /// The same by pass, by the processor's own clock.
+    pub(crate) bake_pass_seconds: BTreeMap<String, f64>,
+    /// What the bake counted for the first seed.
+    pub(crate) bake_counters: BTreeMap<String, u64>,
     /// Of the preparation.
     pub(crate) prepare_seconds: f64,
     /// Of each pass, by the processor's own clock.
@@ -194,16 +200,22 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
             pictures.iter().filter_map(|done| Some(done.errors.get(reference)?.display.rmse));
         (reference.clone(), seeds.collect())
     };
-    let prepare = median(done.iter().map(|(_, _, done)| done.prepare_seconds));
+    let runs: Vec<&Done> = done.iter().map(|(.., done)| *done).collect();
+    let middle = |seconds: fn(&Done) -> f64| {
+        median(runs.iter().map(|done| seconds(done))).expect("there is a first")
+    };
     RowResult::Done(Box::new(Medians {
         seconds,
-        runs: done.len(),
-        prepare_seconds: prepare.expect("there is a first"),
-        pass_seconds: pass_medians(&done.iter().map(|(.., done)| *done).collect::<Vec<_>>()),
+        runs: runs.len(),
+        bake_seconds: middle(|done| done.bake_seconds),
+        bake_pass_seconds: pass_medians(&runs, |done| &done.bake_pass_seconds),
+        bake_counters: first.2.bake_counters.clone(),
+        prepare_seconds: middle(|done| done.prepare_seconds),
+        pass_seconds: pass_medians(&runs, |done| &done.pass_seconds),
         amount: first.2.amount,
         seed_rmse: first.2.errors.keys().map(rmse).collect(),
         bias: BTreeMap::new(),
-        checkpoints: checkpoints(&done.iter().map(|(.., done)| *done).collect::<Vec<_>>()),
+        checkpoints: checkpoints(&runs),
         counters: first.2.counters.clone(),
         key: first.1.key.clone(),
         errors: first.2.errors.keys().map(|r| (r.clone(), median_errors(&pictures, r))).collect(),
@@ -211,9 +223,12 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
 }
 
 /// The median time of each pass of the first run over all runs.
-fn pass_medians(runs: &[&Done]) -> BTreeMap<String, f64> {
-    let passes = runs[0].pass_seconds.keys().filter_map(|pass| {
-        let times = runs.iter().filter_map(|done| done.pass_seconds.get(pass).copied());
+fn pass_medians(
+    runs: &[&Done],
+    seconds: fn(&Done) -> &BTreeMap<String, f64>,
+) -> BTreeMap<String, f64> {
+    let passes = seconds(runs[0]).keys().filter_map(|pass| {
+        let times = runs.iter().filter_map(|done| seconds(done).get(pass).copied());
         Some((pass.clone(), median(times)?))
     });
     passes.collect()
@@ -285,6 +300,9 @@ mod tests {
         let medians = Medians {
             seconds,
             runs: 1,
+            bake_seconds: 0.0,
+            bake_pass_seconds: BTreeMap::new(),
+            bake_counters: BTreeMap::new(),
             prepare_seconds: 0.0,
             pass_seconds: BTreeMap::new(),
             amount: 1.0,

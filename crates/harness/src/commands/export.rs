@@ -69,7 +69,7 @@ fn measures(cells: &[&Cell]) -> Measures {
     let mut samples: BTreeMap<String, BTreeMap<String, Vec<f64>>> = BTreeMap::new();
     for cell in cells {
         let Outcome::Done(done) = &cell.outcome else { continue };
-        let name = format!("{}/{}", cell.inputs.scene, cell.inputs.label());
+        let name = format!("{}/{}", cell.inputs.view(), cell.inputs.label());
         let measured = samples.entry(name).or_default();
         for (measure, value) in values(done) {
             measured.entry(measure).or_default().push(value);

@@ -1,6 +1,6 @@
 //! `manylights merge`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
@@ -10,7 +10,6 @@ use crate::output;
 use crate::show::answer_files;
 use crate::show::report::{self, Loaded};
 use clap::Args;
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct MergeArguments {
@@ -26,9 +25,13 @@ pub(crate) struct MergeArguments {
 /// row is one machine's; ratios are to the baseline of the same machine.
 ///
 /// # Errors
-/// One line where a folder holds no results or those of another experiment.
+/// One line where a folder holds no results or those of another experiment, or is that of the merged
+/// results.
 pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
     let out = &arguments.out;
+    let parts = |folder: &Path| ["cells.jsonl", "cells"].map(|name| folder.join(name));
+    let inputs: Vec<_> = arguments.directories.iter().flat_map(|folder| parts(folder)).collect();
+    output::keep_inputs(parts(out), inputs.iter().map(PathBuf::as_path), "--out")?;
     output::check_directory(&out.join("cells"), "--out")?;
     let mut journal = Journal::open(out)?;
     for directory in &arguments.directories {
@@ -73,7 +76,7 @@ fn copy_pictures(cell: &Cell, from: &Path, to: &Path) -> Result<(), Failure> {
     if !matches!(cell.outcome, Outcome::Done(_)) || cell.inputs.repetition > 0 {
         return Ok(());
     }
-    let [from, to] = [from, to].map(|folder| image_path(folder, &cell.inputs.scene, &cell.key));
+    let [from, to] = [from, to].map(|folder| image_path(folder, &cell.inputs.view(), &cell.key));
     for extension in ["exr", "png", "layers.exr"] {
         let [from, to] = [&from, &to].map(|path| path.with_extension(extension));
         copy(&from, &to)?;

@@ -1,6 +1,6 @@
 //! `manylights metrics`.
 
-use manylights_metrics::{METRICS, RadianceImage, compare_display, compare_linear};
+use manylights_metrics::{METRICS, compare_display, compare_linear, read_exr_pair};
 use serde_json::json;
 
 use crate::error::Failure;
@@ -25,10 +25,10 @@ pub(crate) struct MetricsArguments {
 /// Prints the errors of one picture against another.
 ///
 /// # Errors
-/// One line where a file cannot be read, sizes differ or pixels are not finite.
+/// One line where a file cannot be read, sizes or windows differ or pixels are not finite.
 pub(crate) fn run(arguments: &MetricsArguments) -> Result<(), Failure> {
-    let image = RadianceImage::read_exr(&arguments.image).map_err(Failure::input)?;
-    let reference = RadianceImage::read_exr(&arguments.reference).map_err(Failure::input)?;
+    let [image, reference] =
+        read_exr_pair(&arguments.image, &arguments.reference).map_err(Failure::input)?;
     let linear = compare_linear(&image, &reference).map_err(Failure::input)?;
     let exposure = arguments.exposure;
     let display = compare_display(&image, &reference, exposure).map_err(Failure::input)?;

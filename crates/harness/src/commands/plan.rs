@@ -47,9 +47,11 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<(), Failure> {
         json!({
             "key": job.key,
             "scene": scenes[job.scene].name,
+            "camera": experiment.cameras()[job.camera],
             "method": variant.method.id(),
             "label": job.label,
             "budget": variant.budget,
+            "bounded": variant.bounded,
             "runs": cells,
         })
     };

@@ -1,9 +1,10 @@
 //! `manylights render`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::commands::machine::Machine;
 use crate::error::Failure;
+use crate::measurement::bakes;
 use crate::measurement::measure::{self, Measured};
 use crate::measurement::provenance::Provenance;
 use crate::measurement::stage::{self, Stage};
@@ -14,7 +15,6 @@ use crate::question::settings;
 use crate::registry;
 use clap::Args;
 use manylights_scene::{Transport, Visibility};
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct RenderArguments {
@@ -63,15 +63,22 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     }
     let (exr, png) = output::check_image(&arguments.output)?;
     let scene = stage::load(&arguments.scene, arguments.machine.assets.as_deref())?;
+    let inputs = scene.sources.iter().map(PathBuf::as_path);
+    output::keep_inputs([exr.clone(), png.clone()], inputs, "-o")?;
     let gpu = stage::open_gpu([method], arguments.machine.adapter.as_deref())?;
     let camera = arguments.camera.as_deref();
     let stage = Stage::new(&scene, camera, arguments.resolution, gpu.as_ref())?;
+    let visibility = arguments.visibility.unwrap_or(method.visibility());
+    let transport = measure::with_visibility(arguments.transport, visibility);
+    let frame = stage.frame(transport, arguments.seed);
     let mut progress = Progress::new(&format!("{} {}", scene.name, method.id()));
+    let baking = method.baking();
+    let bake = baking.map(|baking| bakes::once(baking, &frame, &parameters)).transpose()?;
     let measured = measure::measure(
         method,
-        &stage.frame(arguments.transport, arguments.seed),
-        arguments.visibility.unwrap_or(method.visibility()),
+        &frame,
         &parameters,
+        bake.as_ref().map(|(bake, cost)| (bake.as_ref(), cost.clone())),
         &mut |at, _, _| {
             progress.set(at.done, at.total);
             Ok(())
@@ -125,8 +132,12 @@ fn write(
 fn report(measured: &Measured, exr: &Path, png: &Path) {
     let counters: Vec<_> =
         measured.counters.iter().map(|(name, n)| format!("{name} {n}")).collect();
+    let bake = match measured.bake.seconds {
+        0.0 => String::new(),
+        seconds => format!("baked in {seconds:.3} s, "),
+    };
     eprintln!(
-        "{} and {}: prepared in {:.3} s, rendered in {:.3} s; {}",
+        "{} and {}: {bake}prepared in {:.3} s, rendered in {:.3} s; {}",
         exr.display(),
         png.display(),
         measured.prepare_seconds,

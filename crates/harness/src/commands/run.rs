@@ -1,7 +1,7 @@
 //! `manylights run`.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use manylights_scene::Scene;
 
@@ -19,7 +19,6 @@ use crate::show::answer_files;
 use crate::show::layers;
 use crate::show::report;
 use clap::Args;
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct RunArguments {
@@ -53,6 +52,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     output::check_directory(out, "--out")?;
     let cache = stage::reference_cache(arguments.cache.as_deref())?;
     let scenes = load(&experiment, arguments.machine.assets.as_deref())?;
+    keep_inputs(file, &scenes, out)?;
     let mut session =
         Session::open(&experiment, out, &cache, arguments.machine.adapter.as_deref())?;
     keep_experiment(file, out)?;
@@ -62,16 +62,33 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let variants: Vec<usize> = (0..experiment.variants.len()).collect();
     let mut all_cells = Vec::with_capacity(scenes.len());
     for scene in &scenes {
-        let cells = session.scene(scene, &variants)?;
-        session.retire(&cells)?;
-        all_cells.push(cells);
+        for camera in 0..experiment.cameras().len() {
+            let cells = session.scene(scene, camera, &variants)?;
+            session.retire(&cells)?;
+            all_cells.push((scene, cells));
+        }
     }
+    let (scenes, all_cells): (Vec<_>, Vec<_>) = all_cells.into_iter().unzip();
     let command = report::command(file, &experiment, arguments.out.as_deref());
     let answers = answer_files::write(&experiment, &all_cells, &session.on_gpu, command, out)?;
-    for ((scene, cells), answer) in scenes.iter().zip(&all_cells).zip(&answers) {
+    for ((scene, cells), answer) in scenes.into_iter().zip(&all_cells).zip(&answers) {
         layers::write(&experiment, scene, cells, answer, [&cache, out])?;
     }
     check(&answers)
+}
+
+/// Refuses results that would replace the question or what its scenes are made from.
+fn keep_inputs(file: &Path, scenes: &[Scene], out: &Path) -> Result<(), Failure> {
+    let mut outputs = answer_files::paths(scenes.iter().map(|scene| scene.name.as_str()), out);
+    outputs.push(out.join("cells.jsonl"));
+    let kept = out.join("experiment.toml");
+    if !output::is_same_file(&kept, file) {
+        outputs.push(kept);
+    }
+    let pictures = out.join("cells").read_dir().into_iter().flatten().flatten();
+    outputs.extend(pictures.map(|picture| picture.path()));
+    let sources = scenes.iter().flat_map(|scene| &scene.sources).map(PathBuf::as_path);
+    output::keep_inputs(outputs, sources.chain([file]), "--out")
 }
 
 /// Puts the question beside the answer, for `manylights report`.
@@ -90,7 +107,7 @@ fn job(session: &mut Session<'_>, scenes: &[Scene], key: &str) -> Result<(), Fai
     let job = jobs.iter().find(|job| job.key == key).ok_or_else(|| {
         Failure::input(format!("--cell {key}: not a key of this experiment; see manylights plan"))
     })?;
-    let cells = session.scene(&scenes[job.scene], &[job.variant])?;
+    let cells = session.scene(&scenes[job.scene], job.camera, &[job.variant])?;
     session.retire(&cells)?;
     let failed = cells.cells.iter().find_map(|(_, cell)| match &cell.outcome {
         Outcome::Failed { reason } => Some(reason),

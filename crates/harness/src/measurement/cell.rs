@@ -62,6 +62,18 @@ pub(crate) struct Done {
     pub(crate) amount: f64,
     /// Visibility of the last segment that the method computes, where it is a choice.
     pub(crate) visibility: Option<String>,
+    /// Wall clock of what was baked, or grown for this camera; 0 where nothing is.
+    #[serde(default)]
+    pub(crate) bake_seconds: f64,
+    /// The same by pass, by the processor's own clock.
+    #[serde(default)]
+    pub(crate) bake_pass_seconds: BTreeMap<String, f64>,
+    /// What the bake counted.
+    #[serde(default)]
+    pub(crate) bake_counters: BTreeMap<String, u64>,
+    /// Whether an earlier cell was baked so: both tell the same time, which was taken once.
+    #[serde(default)]
+    pub(crate) bake_shared: bool,
     /// Wall clock of what does not depend on the amount of work.
     pub(crate) prepare_seconds: f64,
     /// Wall clock of the work. Warmed up; without read-back, metrics and files.
@@ -121,7 +133,7 @@ pub(crate) fn image_sha256(image: &RadianceImage) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::question::plan::Budget;
+    use crate::question::plan::{Bounded, Budget};
     use crate::question::recorded_value::RecordedValue;
 
     fn inputs() -> Inputs {
@@ -141,6 +153,8 @@ mod tests {
             resolution: [16, 16],
             exposure: 1.5,
             references: BTreeMap::from([("traced".into(), 16)]),
+            bounded: Bounded::TotalTime,
+            camera: Some("side".into()),
         }
     }
 
@@ -166,6 +180,10 @@ mod tests {
         let done = Done {
             amount: 0.1 + 0.2,
             visibility: Some("traced".into()),
+            bake_seconds: 0.5,
+            bake_pass_seconds: BTreeMap::from([("grid".into(), 0.375)]),
+            bake_counters: BTreeMap::from([("records".into(), 7)]),
+            bake_shared: true,
             prepare_seconds: 0.25,
             step_seconds: 0.1 + 0.2,
             pass_seconds: BTreeMap::from([("gather".into(), 0.125)]),

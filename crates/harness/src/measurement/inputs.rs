@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::measurement::provenance::{Provenance, sha256};
 use crate::question::experiment::Experiment;
-use crate::question::plan::{Budget, Variant};
+use crate::question::plan::{Bounded, Budget, Variant};
 use crate::question::recorded_value::RecordedValue;
 
 /// What decides the picture and its errors, and where its time was taken.
@@ -15,6 +15,9 @@ use crate::question::recorded_value::RecordedValue;
 pub(crate) struct Inputs {
     /// Name of the scene.
     pub(crate) scene: String,
+    /// Name of the camera, where the experiment lists some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) camera: Option<String>,
     /// Hash of its triangles, materials, lights and camera.
     pub(crate) scene_content: String,
     /// Method.
@@ -23,6 +26,9 @@ pub(crate) struct Inputs {
     pub(crate) parameters: BTreeMap<String, RecordedValue>,
     /// What it may cost.
     pub(crate) budget: Budget,
+    /// Which time a budget bounds.
+    #[serde(default, skip_serializing_if = "Bounded::is_time")]
+    pub(crate) bounded: Bounded,
     /// Same seed, same picture.
     pub(crate) seed: u64,
     /// Which of the timed runs.
@@ -41,20 +47,24 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
-    /// Of a variant on a scene of this content, with the references that were asked for.
+    /// Of a variant on a scene of this content, seen by a camera of the experiment's list where it has
+    /// one, with the references that were asked for.
     pub(crate) fn new(
         experiment: &Experiment,
         scene: &Scene,
+        camera: Option<&str>,
         content: &str,
         variant: &Variant,
     ) -> Self {
         let samples = experiment.scale.reference_samples;
         Self {
             scene: scene.name.clone(),
+            camera: camera.map(str::to_owned),
             scene_content: content.to_owned(),
             method: variant.method.id().to_owned(),
             parameters: variant.given(),
             budget: variant.budget,
+            bounded: variant.bounded,
             seed: 0,
             repetition: 0,
             transport: experiment.transport.to_string(),
@@ -77,12 +87,18 @@ impl Inputs {
         let mut words = vec![self.method.clone()];
         words.extend(self.parameters.iter().map(|(name, value)| format!("{name}={value}")));
         words.extend(self.asked_visibility.iter().map(|asked| format!("visibility={asked}")));
+        let bounded = self.bounded.word();
         words.extend(match self.budget {
             Budget::Count => None,
-            Budget::Seconds(seconds) => Some(format!("time={seconds}s")),
-            Budget::Baseline => Some("time=baseline".to_owned()),
+            Budget::Seconds(seconds) => Some(format!("{bounded}={seconds}s")),
+            Budget::Baseline => Some(format!("{bounded}=baseline")),
         });
         words.join(" ")
+    }
+
+    /// Scene and camera, for headings and files.
+    pub(crate) fn view(&self) -> String {
+        view(&self.scene, self.camera.as_deref())
     }
 
     /// Names the cell: the hash of the inputs, the program and the machine. A cell of the same key
@@ -91,4 +107,14 @@ impl Inputs {
         let text = serde_json::to_string(&(self, provenance)).expect("inputs are plain data");
         sha256(text.as_bytes())
     }
+}
+
+/// The scene's name; that of the camera follows where the experiment lists some. Cameras of foreign files
+/// are named as anybody likes, and this names files.
+pub(crate) fn view(scene: &str, camera: Option<&str>) -> String {
+    let safe = |letter: char| if letter.is_alphanumeric() || letter == '_' { letter } else { '-' };
+    camera.map_or_else(
+        || scene.to_owned(),
+        |camera| format!("{scene}-{}", camera.chars().map(safe).collect::<String>()),
+    )
 }

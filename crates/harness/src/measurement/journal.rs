@@ -174,7 +174,7 @@ mod tests {
     use crate::measurement::cell::Outcome;
     use crate::measurement::inputs::Inputs;
     use crate::measurement::provenance::Provenance;
-    use crate::question::plan::Budget;
+    use crate::question::plan::{Bounded, Budget};
 
     fn cell(seed: u64, program: &str) -> Cell {
         let provenance = Provenance { program: program.into(), ..Provenance::here(None) };
@@ -191,6 +191,8 @@ mod tests {
             resolution: [16, 16],
             exposure: 1.0,
             references: BTreeMap::new(),
+            bounded: Bounded::Time,
+            camera: None,
         };
         let outcome = Outcome::Declined { reason: "no".into() };
         Cell { key: inputs.key(&provenance), inputs, outcome, provenance }

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use manylights_method::{Error, Frame, Method, Parameters, Progress, Run};
+use manylights_method::{Bake, Error, Frame, Method, Parameters, Progress, Run};
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Transport, Visibility};
+
+use crate::measurement::bakes::BakeCost;
 
 /// What came out of a run.
 pub(crate) struct Measured {
@@ -13,6 +15,8 @@ pub(crate) struct Measured {
     pub(crate) image: RadianceImage,
     /// What was computed.
     pub(crate) transport: Transport,
+    /// Of what it was baked from.
+    pub(crate) bake: BakeCost,
     /// Wall clock of `prepare`: pipelines, acceleration structures.
     pub(crate) prepare_seconds: f64,
     /// Wall clock of all steps. Read-back, metrics and files are outside.
@@ -27,27 +31,29 @@ pub(crate) struct Measured {
 /// the run to look at.
 pub(crate) type Look<'l> = &'l mut dyn FnMut(Progress, f64, &mut dyn Run) -> Result<(), Error>;
 
-/// Prepares, steps to the end and resolves. `visibility` replaces that of the frame's transport, where
-/// it has one.
+/// Prepares, with a bake where the method makes one, steps to the end and resolves.
 ///
 /// # Errors
 /// Those of the method.
 pub(crate) fn measure(
     method: &dyn Method,
     frame: &Frame<'_>,
-    visibility: Visibility,
     parameters: &Parameters,
+    bake: Option<(&dyn Bake, BakeCost)>,
     look: Look<'_>,
 ) -> Result<Measured, Error> {
-    let transport = with_visibility(frame.transport, visibility);
     let clock = Instant::now();
-    let mut run = method.prepare(&Frame { transport, ..*frame }, parameters)?;
+    let mut run = match &bake {
+        Some((bake, _)) => bake.prepare(frame, parameters)?,
+        None => method.prepare(frame, parameters)?,
+    };
     let prepare_seconds = clock.elapsed().as_secs_f64();
     let step_seconds = step_to_the_end(run.as_mut(), look)?.as_secs_f64();
     let image = run.resolve()?;
     Ok(Measured {
         image,
-        transport,
+        transport: frame.transport,
+        bake: bake.map_or_else(BakeCost::default, |(_, cost)| cost),
         prepare_seconds,
         step_seconds,
         pass_seconds: run

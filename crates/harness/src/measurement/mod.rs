@@ -1,5 +1,8 @@
 //! What is measured: scenes made ready, runs by the clock, cells on disk.
 
+pub(crate) mod bakes;
+#[cfg(test)]
+mod bakes_test;
 pub(crate) mod cell;
 pub(crate) mod equal_time;
 pub(crate) mod inputs;

@@ -69,9 +69,9 @@ impl SceneReference {
     ///
     /// # Errors
     /// One line where the file cannot be written.
-    pub(crate) fn write(&self, scene: &str, out: &Path) -> Result<(), Failure> {
+    pub(crate) fn write(&self, view: &str, out: &Path) -> Result<(), Failure> {
         let samples = ("manylights.samples".to_owned(), self.samples.to_string());
-        let path = path(out, scene, self.visibility);
+        let path = path(out, view, self.visibility);
         self.image.write_exr(&path, &[samples]).map_err(Failure::input)
     }
 
@@ -85,7 +85,7 @@ impl SceneReference {
         comparison: Option<&Comparison>,
         out: &Path,
     ) -> Result<Self, Failure> {
-        let path = path(out, &inputs.scene, visibility);
+        let path = path(out, &inputs.view(), visibility);
         Ok(Self {
             visibility,
             image: RadianceImage::read_exr(&path).map_err(Failure::input)?,
@@ -114,8 +114,8 @@ impl SceneReference {
 }
 
 /// The picture of a reference among those of the cells.
-fn path(out: &Path, scene: &str, visibility: Visibility) -> PathBuf {
-    out.join("cells").join(format!("{scene}-reference-{visibility}.exr"))
+fn path(out: &Path, view: &str, visibility: Visibility) -> PathBuf {
+    out.join("cells").join(format!("{view}-reference-{visibility}.exr"))
 }
 
 fn at_scene(scene: &Scene, error: impl std::fmt::Display) -> Failure {

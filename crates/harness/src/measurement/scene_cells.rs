@@ -6,10 +6,12 @@ use crate::measurement::cell::Cell;
 use crate::measurement::reference::SceneReference;
 use crate::question::plan::Turn;
 
-/// A scene with all its cells.
+/// A scene, seen by one camera, with all its cells.
 pub(crate) struct SceneCells {
-    /// Its name.
+    /// Its name, with that of the camera where the experiment lists some.
     pub(crate) scene: String,
+    /// The camera's name, where the experiment lists some.
+    pub(crate) camera: Option<String>,
     /// Its exposure.
     pub(crate) exposure: f32,
     /// In the order of the experiment's references.

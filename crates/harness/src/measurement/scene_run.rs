@@ -1,16 +1,17 @@
-//! Runs the cells of one scene: warm-up, clock, errors, journal.
+//! Runs the cells of one scene and camera: warm-up, clock, errors, journal.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use manylights_method::{Error, Processor, Run};
+use manylights_method::{Bake, Error, Frame, Method, Parameters, Processor, Run};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer as path_tracer;
 use manylights_scene::Scene;
 
 use crate::error::Failure;
+use crate::measurement::bakes::{BakeCost, Origin, SceneHashes, Wanted};
 use crate::measurement::cell::{Cell, Checkpoint, Done, Outcome, image_sha256};
-use crate::measurement::inputs::Inputs;
+use crate::measurement::inputs::{self, Inputs};
 use crate::measurement::measure::{self, Look, Measured};
 use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
@@ -21,14 +22,20 @@ use crate::progress::Progress;
 use crate::question::experiment::REFERENCE_SEED;
 use crate::question::plan::{Turn, Variant, interleaved};
 
-/// One scene in the making.
+/// One scene, seen by one camera, in the making.
 pub(crate) struct SceneRun<'s, 'a> {
     /// What all scenes share.
     pub(crate) session: &'s mut Session<'a>,
     /// The scene, ready.
     pub(crate) stage: Stage<'s>,
-    /// Hash of its content.
-    pub(crate) content: String,
+    /// Index into the experiment's cameras.
+    camera: usize,
+    /// Scene and camera, for people and files.
+    view: String,
+    /// Hash of the content of scene and camera.
+    content: String,
+    /// What bakes may depend on.
+    hashes: SceneHashes,
     /// What the pictures are compared with.
     pub(crate) references: &'s [SceneReference],
     /// Of each variant, the value of the cost parameter that its time budget was found to allow.
@@ -40,8 +47,8 @@ pub(crate) struct SceneRun<'s, 'a> {
 }
 
 impl Session<'_> {
-    /// Renders the references of a scene and those cells of some variants that are not in the
-    /// journal.
+    /// Renders the references of a scene, seen by one of the experiment's cameras, and those cells of
+    /// some variants that are not in the journal.
     ///
     /// # Errors
     /// One line where the scene cannot be rendered or a file cannot be written. Cells that fail are
@@ -49,23 +56,34 @@ impl Session<'_> {
     pub(crate) fn scene(
         &mut self,
         scene: &Scene,
+        camera: usize,
         variants: &[usize],
     ) -> Result<SceneCells, Failure> {
         let experiment = self.experiment;
+        let name = experiment.cameras()[camera];
+        let view = inputs::view(&scene.name, name);
         let gpu = self.gpu.clone();
-        let stage = Stage::new(scene, None, experiment.scale.resolution, gpu.as_ref())?;
+        let stage = Stage::new(scene, name, experiment.scale.resolution, gpu.as_ref())?;
         let references = self.references(scene, &stage)?;
         for reference in &references {
-            reference.write(&scene.name, self.out)?;
+            reference.write(&view, self.out)?;
         }
         let scale = &experiment.scale;
         let turns = interleaved(variants, &scale.seeds, scale.repetitions);
         let content = manylights_scene::content_hash(scene, stage.camera);
-        let amounts = vec![None; experiment.variants.len()];
+        let hashes = SceneHashes::new(scene);
+        let method = |variant: usize| experiment.variants[variant].method;
+        self.bakes.keep_for(&hashes, |variant| {
+            method(variant).baking().map(|baking| baking.depends_on()).unwrap_or_default()
+        });
+        let amounts = self.replayed_amounts(scene, name);
         let mut run = SceneRun {
             session: self,
             stage,
+            camera,
+            view: view.clone(),
             content,
+            hashes,
             references: &references,
             amounts,
             refused: BTreeMap::new(),
@@ -73,7 +91,8 @@ impl Session<'_> {
         };
         let mut cells = run.turns(&turns)?;
         run.correct_times(&mut cells)?;
-        Ok(SceneCells { scene: scene.name.clone(), exposure: scene.exposure, references, cells })
+        let camera = name.map(str::to_owned);
+        Ok(SceneCells { scene: view, camera, exposure: scene.exposure, references, cells })
     }
 
     fn references(&self, scene: &Scene, stage: &Stage<'_>) -> Result<Vec<SceneReference>, Failure> {
@@ -97,8 +116,7 @@ impl SceneRun<'_, '_> {
     /// # Errors
     /// One line where a file cannot be written. A cell that fails is recorded as such.
     pub(crate) fn turns(&mut self, turns: &[Turn]) -> Result<Vec<(Turn, Cell)>, Failure> {
-        let scene = self.stage.scene;
-        let mut progress = Progress::new(&scene.name);
+        let mut progress = Progress::new(&self.view);
         let experiment = self.session.experiment;
         let mut warm = vec![false; experiment.variants.len()];
         let mut cells: Vec<(Turn, Cell)> = Vec::with_capacity(turns.len());
@@ -128,13 +146,15 @@ impl SceneRun<'_, '_> {
     }
 
     fn inputs(&self, variant: &Variant, turn: Turn) -> Inputs {
+        let experiment = self.session.experiment;
+        let camera = experiment.cameras()[self.camera];
         let samples =
             |reference: &SceneReference| (reference.visibility.to_string(), reference.samples);
         Inputs {
             references: self.references.iter().map(samples).collect(),
             seed: turn.seed,
             repetition: turn.repetition,
-            ..Inputs::new(self.session.experiment, self.stage.scene, &self.content, variant)
+            ..Inputs::new(experiment, self.stage.scene, camera, &self.content, variant)
         }
     }
 
@@ -161,11 +181,11 @@ impl SceneRun<'_, '_> {
     }
 
     fn image_path(&self, key: &str) -> PathBuf {
-        image_path(self.session.out, &self.stage.scene.name, key)
+        image_path(self.session.out, &self.view, key)
     }
 
     /// Drivers compile at the first dispatch: that one is outside the clock.
-    fn warm_up(&self, turn: Turn) {
+    fn warm_up(&mut self, turn: Turn) {
         let variant = &self.session.experiment.variants[turn.variant];
         if variant.method.processor() == Processor::Gpu {
             // What fails here fails again by the clock, where it is recorded.
@@ -175,28 +195,83 @@ impl SceneRun<'_, '_> {
 
     /// One run, with the amount of work that a time budget allows where there is one.
     pub(crate) fn measure(
-        &self,
+        &mut self,
         turn: Turn,
         amount: Option<f64>,
         look: Look<'_>,
     ) -> Result<Measured, Error> {
-        let experiment = self.session.experiment;
+        self.with_bake(turn, amount, false, |method, frame, parameters, bake| {
+            measure::measure(method, frame, parameters, bake, look)
+        })
+    }
+
+    /// What a bake takes that is made for this alone; nothing where the method makes none.
+    pub(crate) fn measure_bake(
+        &mut self,
+        turn: Turn,
+        amount: Option<f64>,
+    ) -> Result<BakeCost, Error> {
+        self.with_bake(turn, amount, true, |_, _, _, bake| {
+            Ok(bake.map_or_else(BakeCost::default, |(_, cost)| cost))
+        })
+    }
+
+    /// Calls with all that a run of a variant needs; the bake is one that is at hand, if there is one
+    /// and it need not be made `anew`.
+    fn with_bake<T>(
+        &mut self,
+        turn: Turn,
+        amount: Option<f64>,
+        anew: bool,
+        call: impl FnOnce(
+            &dyn Method,
+            &Frame<'_>,
+            &Parameters,
+            Option<(&dyn Bake, BakeCost)>,
+        ) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let Session { experiment, bakes, gpu, .. } = &mut *self.session;
         let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
-        let frame = self.stage.frame(experiment.transport, turn.seed);
+        let transport = measure::with_visibility(experiment.transport, *visibility);
         let set = |amount| parameters.with_number(method.cost().parameter, amount);
-        let parameters = amount.map_or_else(|| parameters.clone(), set);
-        measure::measure(*method, &frame, *visibility, &parameters, look)
+        let parameters = &amount.map_or_else(|| parameters.clone(), set);
+        let frame = self.stage.frame(transport, turn.seed);
+        let Some(baking) = method.baking() else { return call(*method, &frame, parameters, None) };
+        let origin = Origin {
+            scene: self.hashes.clone(),
+            seed: turn.seed,
+            amount: parameters.real(method.cost().parameter),
+        };
+        let (variant, camera) = (turn.variant, self.camera);
+        let wanted = Wanted { variant, baking, parameters, origin, camera };
+        if anew {
+            bakes.forget(variant);
+        }
+        let bake = bakes.get(&wanted, &|place, bake| {
+            if place == camera {
+                return bake(&frame);
+            }
+            let name = experiment.cameras()[place];
+            let stage = Stage::new(frame.scene, name, frame.resolution, gpu.as_ref());
+            let stage = stage.map_err(|failure| Error::Failed(failure.to_string()))?;
+            bake(&stage.frame(transport, turn.seed))
+        })?;
+        call(*method, &frame, parameters, Some(bake))
     }
 
     /// As [`Self::measure`], looked at whenever the work has doubled, where the method is progressive.
-    fn measure_with_checkpoints(&self, turn: Turn) -> Result<(Measured, Vec<Checkpoint>), Error> {
+    fn measure_with_checkpoints(
+        &mut self,
+        turn: Turn,
+    ) -> Result<(Measured, Vec<Checkpoint>), Error> {
         let method = self.session.experiment.variants[turn.variant].method;
+        let references = self.references;
         let mut checkpoints = Vec::new();
         let mut next = 1;
         let mut look = |progress: manylights_method::Progress, step_seconds, run: &mut dyn Run| {
             if method.is_progressive() && progress.done >= next && !progress.finished() {
                 next = 2 * progress.done;
-                let display_rmse = self.display_rmse(&run.resolve()?)?;
+                let display_rmse = display_rmse(references, &run.resolve()?)?;
                 let amount = progress.done as f64;
                 checkpoints.push(Checkpoint { amount, step_seconds, display_rmse });
             }
@@ -206,15 +281,12 @@ impl SceneRun<'_, '_> {
         Ok((measured, checkpoints))
     }
 
-    fn display_rmse(&self, image: &RadianceImage) -> Result<BTreeMap<String, f64>, Error> {
-        let rmse = |reference: &SceneReference| {
-            let comparison = reference.compare(image).map_err(|e| Error::Failed(e.to_string()))?;
-            Ok((reference.visibility.to_string(), comparison.display.rmse))
-        };
-        self.references.iter().map(rmse).collect()
-    }
-
-    fn outcome(&self, turn: Turn, key: &str, earlier: &[(Turn, Cell)]) -> Result<Outcome, Failure> {
+    fn outcome(
+        &mut self,
+        turn: Turn,
+        key: &str,
+        earlier: &[(Turn, Cell)],
+    ) -> Result<Outcome, Failure> {
         if let Some(refused) = self.refused.get(&turn.variant) {
             return Ok(refused.clone());
         }
@@ -247,7 +319,7 @@ impl SceneRun<'_, '_> {
     }
 
     fn done(
-        &self,
+        &mut self,
         turn: Turn,
         measured: Measured,
         checkpoints: Vec<Checkpoint>,
@@ -265,6 +337,10 @@ impl SceneRun<'_, '_> {
             amount: self.amounts[turn.variant].unwrap_or_else(asked),
             checkpoints,
             visibility: measure::visibility(measured.transport).map(|v| v.to_string()),
+            bake_shared: self.session.bakes.tell(&measured.bake),
+            bake_seconds: measured.bake.seconds,
+            bake_pass_seconds: measured.bake.pass_seconds,
+            bake_counters: measured.bake.counters,
             prepare_seconds: measured.prepare_seconds,
             step_seconds: measured.step_seconds,
             pass_seconds: measured.pass_seconds,
@@ -283,18 +359,28 @@ impl SceneRun<'_, '_> {
                     .iter()
                     .map(|(reference, e)| format!("{reference} {:.4}", e.display.rmse))
                     .collect();
-                format!("{:.4} s, RMSE (sRGB) {}", done.step_seconds, errors.join(", "))
+                let bake = match (done.bake_seconds, done.bake_shared) {
+                    (0.0, _) | (_, true) => String::new(),
+                    (seconds, false) => format!("baked in {seconds:.4} s, "),
+                };
+                format!("{bake}{:.4} s, RMSE (sRGB) {}", done.step_seconds, errors.join(", "))
             }
             Outcome::Declined { reason } => format!("declined: {reason}"),
             Outcome::Failed { reason } => format!("FAILED: {reason}"),
         };
-        format!(
-            "{} {variant} seed {} run {}: {what}",
-            self.stage.scene.name,
-            turn.seed,
-            turn.repetition + 1
-        )
+        format!("{} {variant} seed {} run {}: {what}", self.view, turn.seed, turn.repetition + 1)
     }
+}
+
+fn display_rmse(
+    references: &[SceneReference],
+    image: &RadianceImage,
+) -> Result<BTreeMap<String, f64>, Error> {
+    let rmse = |reference: &SceneReference| {
+        let comparison = reference.compare(image).map_err(|e| Error::Failed(e.to_string()))?;
+        Ok((reference.visibility.to_string(), comparison.display.rmse))
+    };
+    references.iter().map(rmse).collect()
 }
 
 /// Whether a repetition gave other bits than the first run of the same cell.

@@ -5,11 +5,12 @@ use std::path::Path;
 use manylights_gpu::Gpu;
 
 use crate::error::Failure;
+use crate::measurement::bakes::Bakes;
 use crate::measurement::cell::Cell;
 use crate::measurement::journal::Journal;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::scene_cells::{SceneCells, image_path};
-use crate::measurement::stage::{self};
+use crate::measurement::stage;
 use crate::output;
 use crate::question::experiment::Experiment;
 
@@ -25,6 +26,10 @@ pub(crate) struct Session<'a> {
     pub(crate) cache: &'a Path,
     /// Where a method needs it.
     pub(crate) gpu: Option<Gpu>,
+    /// What further frames may reuse.
+    pub(crate) bakes: Bakes,
+    /// Cells whose amounts of work time budgets repeat, instead of a search.
+    pub(crate) replayed: Vec<Cell>,
     /// Of cells on the adapter.
     pub(crate) on_gpu: Provenance,
     /// Of cells on the host.
@@ -48,7 +53,8 @@ impl<'a> Session<'a> {
         let gpu = stage::open_gpu(methods, adapter)?;
         let on_gpu = Provenance::here(gpu.as_ref());
         let on_cpu = Provenance { adapter: None, ..on_gpu.clone() };
-        Ok(Self { experiment, journal, out, cache, gpu, on_gpu, on_cpu })
+        let (bakes, replayed) = (Bakes::default(), Vec::new());
+        Ok(Self { experiment, journal, out, cache, gpu, bakes, replayed, on_gpu, on_cpu })
     }
 
     /// Drops what older builds left of the same cells, pictures included.

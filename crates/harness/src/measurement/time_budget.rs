@@ -1,6 +1,7 @@
 //! Time budgets: how much work each variant may do on a scene.
 
 use manylights_method::Error;
+use manylights_scene::Scene;
 
 use crate::answer::statistics::median;
 use crate::error::Failure;
@@ -9,7 +10,8 @@ use crate::measurement::equal_time::{self, distance, miss};
 use crate::measurement::inputs::Inputs;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::scene_run::SceneRun;
-use crate::question::plan::{Budget, Turn};
+use crate::measurement::session::Session;
+use crate::question::plan::{Bounded, Budget, Turn, Variant};
 
 /// A median time this far from its budget, relatively, is corrected once more and marked in tables.
 pub(crate) const TOLERANCE: f64 = 0.05;
@@ -17,6 +19,27 @@ pub(crate) const TOLERANCE: f64 = 0.05;
 const CORRECTIONS: usize = 5;
 /// Runs that a time is the median of, once it is near its target.
 const RUNS: usize = 3;
+
+impl Session<'_> {
+    /// Of each variant, the amount of work that a time budget repeats, where there is one to repeat.
+    pub(crate) fn replayed_amounts(&self, scene: &Scene, camera: Option<&str>) -> Vec<Option<f64>> {
+        let amount = |variant: &Variant| {
+            let asked = Inputs::new(self.experiment, scene, camera, "", variant);
+            let alike = |cell: &&Cell| {
+                cell.inputs.view() == asked.view() && cell.inputs.label() == asked.label()
+            };
+            let mut cells = self.replayed.iter().filter(alike);
+            let allowed = |&amount: &f64| variant.amounts().contains(amount);
+            cells.find_map(|cell| match &cell.outcome {
+                Outcome::Done(done) if variant.budget != Budget::Count => {
+                    Some(done.amount).filter(allowed)
+                }
+                _ => None,
+            })
+        };
+        self.experiment.variants.iter().map(amount).collect()
+    }
+}
 
 impl SceneRun<'_, '_> {
     /// Takes the amount of a variant from the last finished cell that differs in seed and repetition
@@ -50,7 +73,12 @@ impl SceneRun<'_, '_> {
         if variant.budget == Budget::Count || self.amounts[turn.variant].is_some() {
             return;
         }
-        match self.search(turn) {
+        let found = self.search(turn);
+        if variant.bounded != Bounded::Time {
+            // The nearest of the search's tries is no fair measurement of its bake.
+            self.session.bakes.forget(turn.variant);
+        }
+        match found {
             Ok(amount) => self.amounts[turn.variant] = Some(amount),
             Err(error) => {
                 self.refused.insert(turn.variant, Outcome::refused(error));
@@ -58,38 +86,64 @@ impl SceneRun<'_, '_> {
         }
     }
 
-    fn search(&self, turn: Turn) -> Result<f64, Error> {
+    fn search(&mut self, turn: Turn) -> Result<f64, Error> {
         let experiment = self.session.experiment;
         let variant = &experiment.variants[turn.variant];
+        let bounded = variant.bounded;
         let target = match variant.budget {
             Budget::Count => unreachable!("a count is not searched for"),
             Budget::Seconds(seconds) => seconds,
             Budget::Baseline => {
                 let told = |reason| format!("the baseline, which sets the time: {reason}");
-                self.seconds(Turn { variant: experiment.baseline, ..turn }, None).map_err(
-                    |error| match error {
-                        Error::Declined(reason) => Error::Declined(told(reason)),
-                        Error::Failed(reason) => Error::Failed(told(reason)),
-                    },
-                )?
+                let baseline = Turn { variant: experiment.baseline, ..turn };
+                self.seconds(baseline, None, bounded).map_err(|error| match error {
+                    Error::Declined(reason) => Error::Declined(told(reason)),
+                    Error::Failed(reason) => Error::Failed(told(reason)),
+                })?
             }
         };
+        if target <= 0.0 {
+            return Err(Error::Declined("the baseline, which sets the time, bakes nothing".into()));
+        }
         let start = variant.parameters.real(variant.method.cost().parameter);
-        let measured = |amount| self.time(turn, amount, target);
+        let measured = |amount| self.time(turn, amount, bounded, target);
         equal_time::search(target, variant.amounts(), start, measured)
     }
 
     /// One run where the time is far from `target`, the median of some where it is near.
-    fn time(&self, turn: Turn, amount: f64, target: f64) -> Result<f64, Error> {
-        let first = self.measure(turn, Some(amount), &mut |_, _, _| Ok(()))?.step_seconds;
-        if distance(first, target) > 0.5 { Ok(first) } else { self.seconds(turn, Some(amount)) }
+    fn time(
+        &mut self,
+        turn: Turn,
+        amount: f64,
+        bounded: Bounded,
+        target: f64,
+    ) -> Result<f64, Error> {
+        let first = self.once(turn, Some(amount), bounded)?;
+        if distance(first, target) > 0.5 {
+            return Ok(first);
+        }
+        self.seconds(turn, Some(amount), bounded)
     }
 
-    fn seconds(&self, turn: Turn, amount: Option<f64>) -> Result<f64, Error> {
-        let runs = (0..RUNS).map(|_| self.measure(turn, amount, &mut |_, _, _| Ok(())));
-        let seconds: Vec<f64> =
-            runs.map(|run| Ok(run?.step_seconds)).collect::<Result<_, Error>>()?;
+    fn seconds(&mut self, turn: Turn, amount: Option<f64>, bounded: Bounded) -> Result<f64, Error> {
+        let runs = (0..RUNS).map(|_| self.once(turn, amount, bounded));
+        let seconds: Vec<f64> = runs.collect::<Result<_, Error>>()?;
         Ok(median(seconds).expect("there are some"))
+    }
+
+    /// The time that a budget bounds, of a run with a bake of its own where it counts.
+    fn once(&mut self, turn: Turn, amount: Option<f64>, bounded: Bounded) -> Result<f64, Error> {
+        let bake = match bounded {
+            Bounded::Time => 0.0,
+            Bounded::BuildTime | Bounded::TotalTime => self.measure_bake(turn, amount)?.seconds,
+        };
+        let frame = match bounded {
+            Bounded::BuildTime => 0.0,
+            Bounded::Time | Bounded::TotalTime => {
+                self.measure(turn, amount, &mut |_, _, _| Ok(()))?.step_seconds
+            }
+        };
+        Ok(bounded.seconds(frame, bake))
     }
 
     /// Runs those variants again, with another amount, whose median time missed its budget: what was
@@ -98,8 +152,9 @@ impl SceneRun<'_, '_> {
     /// # Errors
     /// Those of [`Self::turns`].
     pub(crate) fn correct_times(&mut self, cells: &mut [(Turn, Cell)]) -> Result<(), Failure> {
-        // A finished run repeats nothing.
-        let corrections = if self.ran { CORRECTIONS } else { 0 };
+        // A finished run repeats nothing, and where amounts are repeated times decide nothing.
+        let searched = self.ran && self.session.replayed.is_empty();
+        let corrections = if searched { CORRECTIONS } else { 0 };
         for _ in 0..corrections {
             let variants = 0..self.amounts.len();
             let missed: Vec<_> = variants
@@ -123,12 +178,13 @@ impl SceneRun<'_, '_> {
 
     /// A better amount for a variant whose median time missed its budget, where there is one.
     fn missed(&self, variant: usize, cells: &[(Turn, Cell)]) -> Option<f64> {
-        let target = match self.session.experiment.variants[variant].budget {
+        let Variant { budget, bounded, .. } = self.session.experiment.variants[variant];
+        let target = match budget {
             Budget::Count => return None,
             Budget::Seconds(seconds) => seconds,
-            Budget::Baseline => median_seconds(self.session.experiment.baseline, cells)?,
+            Budget::Baseline => median_seconds(self.session.experiment.baseline, bounded, cells)?,
         };
-        let seconds = median_seconds(variant, cells)?;
+        let seconds = median_seconds(variant, bounded, cells)?;
         let amount = self.amounts[variant]?;
         let amounts = self.session.experiment.variants[variant].amounts();
         let better = amounts.nearest(amounts.work(amount) * target / seconds);
@@ -136,10 +192,10 @@ impl SceneRun<'_, '_> {
     }
 }
 
-fn median_seconds(variant: usize, cells: &[(Turn, Cell)]) -> Option<f64> {
+fn median_seconds(variant: usize, bounded: Bounded, cells: &[(Turn, Cell)]) -> Option<f64> {
     median(cells.iter().filter(|(turn, _)| turn.variant == variant).filter_map(|(_, cell)| {
         match &cell.outcome {
-            Outcome::Done(done) => Some(done.step_seconds),
+            Outcome::Done(done) => Some(bounded.seconds(done.step_seconds, done.bake_seconds)),
             _ => None,
         }
     }))

@@ -12,6 +12,8 @@ pub(crate) enum Column {
     Time,
     /// First and third quartile of the time.
     Quartiles,
+    /// Time of what the frames were baked from; in every table of a scene where something is baked.
+    Bake,
     /// Time of each pass by the processor's own clock; in no table that does not ask for it.
     Passes,
     /// Time as a multiple of the baseline's.
@@ -36,10 +38,11 @@ pub(crate) enum Column {
 
 impl Column {
     /// Those of an experiment that names none, in their order.
-    pub(crate) const ALL: [Self; 12] = [
+    pub(crate) const ALL: [Self; 13] = [
         Self::Counts,
         Self::Time,
         Self::Quartiles,
+        Self::Bake,
         Self::TimeRatio,
         Self::Rmse,
         Self::RmseRatio,
@@ -57,6 +60,7 @@ impl Column {
             Self::Counts => "counts",
             Self::Time => "time ms",
             Self::Quartiles => "quartiles",
+            Self::Bake => "bake ms",
             Self::Passes => "passes ms",
             Self::TimeRatio | Self::RmseRatio => "÷ base",
             Self::Rmse => "RMSE",

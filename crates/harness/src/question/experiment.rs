@@ -4,6 +4,8 @@
 //! title = "…"                        # heading of the table
 //! question = "…"
 //! scenes = ["cornell", "scenes/hall.toml"]
+//! cameras = ["front", "side"]        # of each scene, in the order in which bakes grow; left out: its
+//!                                    # first; a listed one's pictures are named SCENE-CAMERA
 //! transport = "indirect-1"
 //! references = ["traced", "ignored"] # visibility of their last segment; the truth first
 //! errors = [0.02]                    # the time to reach these RMSEs is read off the curves
@@ -14,7 +16,8 @@
 //! visibility = "traced"              # or "ignored", or a list; left out: the method's own
 //! [[methods]]
 //! id = "…"
-//! budget = "time"                    # the harness sets the method's cost parameter
+//! budget = "time"                    # the harness sets the method's cost parameter so that a frame
+//!                                    # takes `times`; "build_time": its bake; "total_time": both
 //! [baseline]                         # one of those; the first where it is left out
 //! id = "…"
 //! parameters = { samples = 16 }
@@ -69,6 +72,8 @@ pub(crate) struct Experiment {
     pub(crate) question: String,
     /// Names or files for `manylights_scene::load`.
     pub(crate) scenes: Vec<String>,
+    /// Cameras of each scene, in the order in which bakes grow; where none are named, its first.
+    pub(crate) cameras: Vec<String>,
     /// The light paths of all pictures.
     pub(crate) transport: Transport,
     /// The references, the truth first: ranks are by it.
@@ -91,6 +96,16 @@ pub(crate) struct Experiment {
     pub(crate) profile: &'static str,
     /// Sizes and counts of the profile.
     pub(crate) scale: Scale,
+}
+
+impl Experiment {
+    /// The cameras of each scene by name; one without a name for the scene's first.
+    pub(crate) fn cameras(&self) -> Vec<Option<&str>> {
+        match self.cameras.as_slice() {
+            [] => vec![None],
+            names => names.iter().map(|name| Some(name.as_str())).collect(),
+        }
+    }
 }
 
 /// How large an experiment is.
@@ -124,6 +139,8 @@ struct File {
     title: String,
     question: String,
     scenes: Vec<String>,
+    #[serde(default)]
+    cameras: Vec<String>,
     transport: String,
     references: Vec<String>,
     methods: Vec<Entry>,
@@ -191,6 +208,9 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
     if file.scenes.is_empty() || file.methods.is_empty() || file.references.is_empty() {
         return Err("`scenes`, `methods` and `references` each need at least one entry".into());
     }
+    if let Some(twice) = repeated(&file.cameras) {
+        return Err(format!("cameras: `{twice}` is listed twice"));
+    }
     let transport: Transport = file.transport.parse()?;
     let times = times(&scale.times)?;
     let mut variants = Vec::new();
@@ -224,6 +244,7 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
         title: file.title,
         question: file.question,
         scenes: file.scenes,
+        cameras: file.cameras,
         transport,
         references,
         baseline: baseline(file.baseline.as_ref(), &variants)?,
@@ -250,6 +271,15 @@ fn check_scale(name: &str, scale: &Scale) -> Result<(), String> {
         return at("a seed is that of the references: choose another");
     }
     Ok(())
+}
+
+/// The first name that occurs before.
+fn repeated(names: &[String]) -> Option<&String> {
+    names
+        .iter()
+        .enumerate()
+        .find(|(index, name)| names[..*index].contains(name))
+        .map(|(_, name)| name)
 }
 
 fn times(written: &[Time]) -> Result<Vec<Budget>, String> {
@@ -376,6 +406,12 @@ seeds = [1]
             ("scenes = [\"cornell\"]", "scenes = []", "at least one entry"),
             ("profiles.quick", "profiles.quik", "did you mean `quick`?"),
             ("{ samples = [1, 4, 16] }", "{}\nbudget = \"time\"", "no `times`"),
+            (
+                "{ samples = [1, 4, 16] }",
+                "{}\nbudget = \"total_time\"",
+                "total_time budget, but the profile no",
+            ),
+            ("transport", "cameras = [\"a\", \"a\"]\ntransport", "`a` is listed twice"),
             ("[1, 4, 16] }", "[1, 4, 16] }\nbudget = \"money\"", "unknown variant `money`"),
             ("seeds = [1]", "seeds = [1]\ntimes = [0]", "positive numbers of seconds"),
             ("seeds = [1]", "seeds = [1]\ntimes = [\"noon\"]", "\"baseline\""),
@@ -391,6 +427,10 @@ seeds = [1]
             let reason = refused(from, to);
             assert!(reason.contains(said) && reason.lines().count() == 1, "{reason} / {said}");
         }
+        let timed = GOOD.replace("seeds = [1]", "seeds = [1]\ntimes = [1]");
+        let built = timed.replace("{ samples = [1, 4, 16] }", "{}\nbudget = \"build_time\"");
+        let reason = parse(&built, Profile::Quick).expect_err("path tracing bakes nothing");
+        assert!(reason.contains("bakes nothing that grows with `samples`"), "{reason}");
         let missing = parse(GOOD, Profile::Paper).expect_err("no paper profile");
         assert!(missing.contains("[profiles.paper]"), "{missing}");
         let seed = refused("seeds = [1]", &format!("seeds = [{REFERENCE_SEED}]"));

@@ -3,7 +3,7 @@
 use manylights_scene::Scene;
 
 use crate::error::Failure;
-use crate::measurement::inputs::Inputs;
+use crate::measurement::inputs::{self, Inputs};
 use crate::question::experiment::Experiment;
 
 /// A variant on a scene, with all its seeds and repetitions: a median needs one machine.
@@ -12,6 +12,8 @@ pub(crate) struct Job {
     pub(crate) key: String,
     /// Index into the scenes.
     pub(crate) scene: usize,
+    /// Index into the experiment's cameras.
+    pub(crate) camera: usize,
     /// Index into the experiment's variants.
     pub(crate) variant: usize,
     /// Scene and variant, for people.
@@ -21,21 +23,24 @@ pub(crate) struct Job {
 /// All jobs, scene by scene.
 ///
 /// # Errors
-/// One line where a scene has no camera.
+/// One line where a scene has no such camera.
 pub(crate) fn of_experiment(
     experiment: &Experiment,
     scenes: &[Scene],
 ) -> Result<Vec<Job>, Failure> {
-    let mut jobs = Vec::with_capacity(scenes.len() * experiment.variants.len());
+    let mut jobs = Vec::new();
     for (index, scene) in scenes.iter().enumerate() {
-        let camera = scene.camera(None).map_err(Failure::input)?;
-        let content = manylights_scene::content_hash(scene, camera);
-        jobs.extend(experiment.variants.iter().enumerate().map(|(number, variant)| Job {
-            key: Inputs::new(experiment, scene, &content, variant).question(),
-            scene: index,
-            variant: number,
-            label: format!("{} {}", scene.name, variant.label()),
-        }));
+        for (place, name) in experiment.cameras().into_iter().enumerate() {
+            let camera = scene.camera(name).map_err(Failure::input)?;
+            let content = manylights_scene::content_hash(scene, camera);
+            jobs.extend(experiment.variants.iter().enumerate().map(|(number, variant)| Job {
+                key: Inputs::new(experiment, scene, name, &content, variant).question(),
+                scene: index,
+                camera: place,
+                variant: number,
+                label: format!("{} {}", inputs::view(&scene.name, name), variant.label()),
+            }));
+        }
     }
     Ok(jobs)
 }

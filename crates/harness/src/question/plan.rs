@@ -15,10 +15,48 @@ use crate::show::numbers::milliseconds;
 pub(crate) enum Budget {
     /// The work that the parameters say.
     Count,
-    /// Seconds of work. The value of the method's cost parameter is searched for.
+    /// Seconds. The value of the method's cost parameter is searched for.
     Seconds(f64),
     /// The seconds that the experiment's baseline takes on the same scene.
     Baseline,
+}
+
+/// Which time a budget bounds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Bounded {
+    /// That of one frame, without what it was baked from.
+    #[default]
+    Time,
+    /// That of the bake.
+    BuildTime,
+    /// That of both.
+    TotalTime,
+}
+
+impl Bounded {
+    /// As experiment files name it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::BuildTime => "build_time",
+            Self::TotalTime => "total_time",
+        }
+    }
+
+    /// Whether it is that of one frame.
+    pub(crate) fn is_time(&self) -> bool {
+        *self == Self::Time
+    }
+
+    /// The seconds that it bounds, of a frame and of its bake.
+    pub(crate) fn seconds(self, frame: f64, bake: f64) -> f64 {
+        match self {
+            Self::Time => frame,
+            Self::BuildTime => bake,
+            Self::TotalTime => frame + bake,
+        }
+    }
 }
 
 /// A method with all its parameters set.
@@ -36,15 +74,18 @@ pub(crate) struct Variant {
     pub(crate) visibility: Visibility,
     /// What it may cost.
     pub(crate) budget: Budget,
+    /// Which of its times that is.
+    pub(crate) bounded: Bounded,
 }
 
 impl Variant {
     /// Method and the parameters that differ from their defaults or are swept; the budget.
     pub(crate) fn label(&self) -> String {
+        let bounded = self.bounded.word();
         let budget = match self.budget {
             Budget::Count => return self.text(|_| true),
-            Budget::Seconds(seconds) => format!(" time={} ms", milliseconds(seconds)),
-            Budget::Baseline => " time=baseline".to_owned(),
+            Budget::Seconds(seconds) => format!(" {bounded}={} ms", milliseconds(seconds)),
+            Budget::Baseline => format!(" {bounded}=baseline"),
         };
         self.text(|name| name != self.method.cost().parameter) + &budget
     }
@@ -95,6 +136,7 @@ impl PartialEq for Variant {
             && self.parameters == other.parameters
             && self.visibility == other.visibility
             && self.budget == other.budget
+            && self.bounded == other.bounded
     }
 }
 

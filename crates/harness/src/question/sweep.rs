@@ -1,9 +1,10 @@
 //! Sweeps: from lists of values to variants.
 
+use manylights_method::Method;
 use manylights_scene::Visibility;
 use serde::Deserialize;
 
-use crate::question::plan::{Budget, Variant};
+use crate::question::plan::{Bounded, Budget, Variant};
 use crate::question::settings;
 use crate::registry;
 
@@ -29,13 +30,28 @@ enum Seen {
 
 /// What bounds the work of a method.
 #[derive(Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "snake_case")]
 enum Kind {
     /// The parameters as written.
     #[default]
     Count,
-    /// The times of the profile, one after the other.
+    /// The times of the profile, one after the other, each for one frame.
     Time,
+    /// The same, each for the bake.
+    BuildTime,
+    /// The same, each for both.
+    TotalTime,
+}
+
+impl Kind {
+    fn bounded(self) -> Option<Bounded> {
+        match self {
+            Self::Count => None,
+            Self::Time => Some(Bounded::Time),
+            Self::BuildTime => Some(Bounded::BuildTime),
+            Self::TotalTime => Some(Bounded::TotalTime),
+        }
+    }
 }
 
 impl Entry {
@@ -46,7 +62,7 @@ impl Entry {
     /// One line for an unknown method or parameter (the nearest is named) or a value out of range.
     pub(crate) fn variants(&self, times: &[Budget]) -> Result<Vec<Variant>, String> {
         let method = registry::method(&self.id)?;
-        let budgets = self.budgets(method.cost().parameter, times)?;
+        let budgets = self.budgets(method, times)?;
         let grid = self.grid()?;
         if grid.is_empty() {
             return Err(format!("methods: `{}` has a parameter without values", self.id));
@@ -62,7 +78,8 @@ impl Entry {
                 let parameters = settings::parameters(method, pairs)?;
                 variants.extend(budgets.iter().map(|&budget| {
                     let parameters = parameters.clone();
-                    Variant { method, parameters, swept, visibility, budget }
+                    let bounded = self.budget.bounded().unwrap_or_default();
+                    Variant { method, parameters, swept, visibility, budget, bounded }
                 }));
             }
         }
@@ -81,18 +98,25 @@ impl Entry {
         texts.iter().map(|text| text.parse()).collect()
     }
 
-    fn budgets<'b>(&self, cost: &str, times: &'b [Budget]) -> Result<&'b [Budget], String> {
-        match self.budget {
-            Kind::Count => Ok(&[Budget::Count]),
-            Kind::Time if times.is_empty() => {
-                Err(format!("methods: `{}` has a time budget, but the profile no `times`", self.id))
-            }
-            Kind::Time if self.parameters.contains_key(cost) => Err(format!(
-                "methods: `{}` has a time budget, which sets `{cost}`: leave it out",
-                self.id
-            )),
-            Kind::Time => Ok(times),
+    fn budgets<'b>(
+        &self,
+        method: &dyn Method,
+        times: &'b [Budget],
+    ) -> Result<&'b [Budget], String> {
+        let Some(bounded) = self.budget.bounded() else { return Ok(&[Budget::Count]) };
+        let (id, word, cost) = (&self.id, bounded.word(), method.cost().parameter);
+        let refuse = |reason: String| Err(format!("methods: `{id}` has a {word} budget, {reason}"));
+        let builds = || method.baking().is_some_and(|baking| baking.depends_on().amount);
+        if times.is_empty() {
+            return refuse("but the profile no `times`".into());
         }
+        if self.parameters.contains_key(cost) {
+            return refuse(format!("which sets `{cost}`: leave it out"));
+        }
+        if bounded == Bounded::BuildTime && !builds() {
+            return refuse(format!("but bakes nothing that grows with `{cost}`: use time"));
+        }
+        Ok(times)
     }
 
     /// All combinations of the values, as (key, value) rows.

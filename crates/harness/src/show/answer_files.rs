@@ -1,6 +1,6 @@
 //! The files of an answer: tables, curves, sheets, report.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
@@ -9,9 +9,22 @@ use crate::measurement::scene_cells::SceneCells;
 use crate::output;
 use crate::question::experiment::Experiment;
 use crate::show::curves::Figure;
-use crate::show::report::Report;
+use crate::show::report::{self, Report};
 use crate::show::sheet;
 use crate::show::table;
+
+/// The files that every answer has beside a sheet for each scene.
+const FILES: [&str; 5] = ["table.md", "table.tex", "table.csv", "curves.svg", "curves.png"];
+
+/// What [`write`] writes to `out` for scenes of these names.
+pub(crate) fn paths<'a>(scenes: impl Iterator<Item = &'a str>, out: &Path) -> Vec<PathBuf> {
+    let names = FILES.into_iter().chain([report::FILE]).map(str::to_owned);
+    names.chain(scenes.map(sheet_name)).map(|name| out.join(name)).collect()
+}
+
+fn sheet_name(scene: &str) -> String {
+    format!("sheet-{scene}.png")
+}
 
 /// Condenses the cells of `out`, whose pictures are there, writes all files of the answer beside them
 /// and names these. `command` is what makes the results again.
@@ -30,16 +43,16 @@ pub(crate) fn write(
         .map(|cells| SceneAnswer::new(experiment, cells, out))
         .collect::<Result<_, _>>()?;
     let figure = Figure::new(experiment, &answers);
-    let mut files = vec![
-        ("table.md".to_owned(), table::markdown(experiment, &answers, machine).into_bytes()),
-        ("table.tex".to_owned(), table::latex(experiment, &answers, machine).into_bytes()),
-        ("table.csv".to_owned(), table::csv(experiment, &answers).into_bytes()),
-        ("curves.svg".to_owned(), figure.svg()?.into_bytes()),
-        ("curves.png".to_owned(), figure.png()?),
+    let contents = [
+        table::markdown(experiment, &answers, machine).into_bytes(),
+        table::latex(experiment, &answers, machine).into_bytes(),
+        table::csv(experiment, &answers).into_bytes(),
+        figure.svg()?.into_bytes(),
+        figure.png()?,
     ];
+    let mut files: Vec<_> = FILES.map(str::to_owned).into_iter().zip(contents).collect();
     for (cells, answer) in cells.iter().zip(&answers) {
-        let name = format!("sheet-{}.png", cells.scene);
-        files.push((name, sheet::png(experiment, cells, answer, out)?));
+        files.push((sheet_name(&cells.scene), sheet::png(experiment, cells, answer, out)?));
     }
     for (name, bytes) in files {
         let path = out.join(name);

@@ -37,7 +37,7 @@ pub(crate) fn write(
     let direct = match experiment.transport {
         Transport::Direct => None,
         Transport::All | Transport::Indirect { .. } => {
-            Some(render_direct(experiment, scene, cache)?)
+            Some(render_direct(experiment, scene, cells.camera.as_deref(), cache)?)
         }
     };
     let truth = &cells.references[0].image;
@@ -87,12 +87,13 @@ fn combined(a: &RadianceImage, b: &RadianceImage, f: impl Fn(f32, f32) -> f32) -
 fn render_direct(
     experiment: &Experiment,
     scene: &Scene,
+    camera: Option<&str>,
     cache: &Path,
 ) -> Result<RadianceImage, Failure> {
     let at_scene = |error: &dyn std::fmt::Display| {
         Failure::input(format!("direct light of {}: {error}", scene.name))
     };
-    let camera = scene.camera(None).map_err(|error| at_scene(&error))?;
+    let camera = scene.camera(camera).map_err(|error| at_scene(&error))?;
     // Point-like lights are summed exactly: more samples would give the same picture.
     let is_exact = scene.emissive_triangles().next().is_none();
     let settings = path_tracer::Settings {

@@ -3,6 +3,8 @@
 
 #![allow(dead_code, reason = "each test file uses some of them")]
 
+pub(crate) mod exr_files;
+
 use manylights_metrics::RadianceImage;
 
 /// A picture whose components are `value(column, row, component)`.

@@ -5,7 +5,7 @@ mod cornell;
 pub mod integrating_sphere;
 mod trio;
 
-use crate::{Material, Scene};
+use crate::{LoadError, Material, Scene};
 
 /// A scene made by code.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +46,23 @@ pub const BUILTINS: &[Builtin] = &[
         make: trio::make,
     },
 ];
+
+/// What a name starts with that can mean nothing else.
+pub(crate) const PREFIX: &str = "builtin:";
+
+/// The scene of that name; `place` asks for it.
+///
+/// # Errors
+/// Where there is none (the nearest is suggested).
+pub(crate) fn named(name: &str, place: impl std::fmt::Display) -> Result<Scene, LoadError> {
+    match BUILTINS.iter().find(|builtin| builtin.name == name) {
+        Some(builtin) => Ok((builtin.make)()),
+        None => {
+            let names = BUILTINS.iter().map(|builtin| builtin.name);
+            Err(LoadError::unknown(place, "built-in scene", name, names))
+        }
+    }
+}
 
 /// Appends a material and returns its index.
 fn add(scene: &mut Scene, material: Material) -> u32 {

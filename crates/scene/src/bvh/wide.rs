@@ -58,7 +58,7 @@ pub(super) struct Wide {
     pub(super) blocks: Vec<Block>,
 }
 
-/// The hierarchy in the words that shaders read: children as in [`Child`], floats as their bits.
+/// The hierarchy in the words that shaders read: children as in `Child`, floats as their bits.
 pub struct BvhWords {
     /// 48 planes (low x, high x, low y, … of eight children each) and eight children a node.
     pub nodes: Vec<[u32; 56]>,

@@ -96,6 +96,11 @@ pub(super) fn resolve(uri: &str, folder: &Path, limit: u64) -> Result<Vec<u8>, L
     Ok(bytes)
 }
 
+/// The path that a URI means, whether it may be read or not.
+pub(super) fn mentioned(uri: &str, folder: &Path) -> PathBuf {
+    folder.join(percent_decode_str(uri).decode_utf8_lossy().as_ref())
+}
+
 /// The decoded path of a relative URI, which must not leave the folder that it is relative to.
 fn relative_path(uri: &str) -> Result<PathBuf, LoadError> {
     let refuse = |why: &str| {

@@ -8,25 +8,20 @@ use gltf_crate::json::Root;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::extensions::UNDERSTOOD;
 use super::fault::broken;
+use super::mentions::Mentions;
 use crate::LoadError;
-
-/// Extensions that a file may require. (`KHR_materials_specular` and its like also work undeclared.)
-pub(super) const UNDERSTOOD: [&str; 4] = [
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
-];
 
 /// Bytes of a GLB's header.
 const GLB_HEADER: usize = 12;
 
-/// The two parts of a file.
+/// The two parts of a file, and what the first mentions.
 pub(super) struct Parts<'a> {
     pub(super) root: Root,
     /// The binary chunk of a `.glb`.
     pub(super) binary: Option<Cow<'a, [u8]>>,
+    pub(super) mentions: Mentions,
 }
 
 /// What has to be known before the rest of the JSON is worth reading.
@@ -55,13 +50,14 @@ pub(super) fn open(bytes: &[u8]) -> Result<Parts<'_>, LoadError> {
     check_head(&serde_json::from_slice(&json).map_err(parse_error)?)?;
     let mut value = serde_json::from_slice(&json).map_err(parse_error)?;
     check_integers(&value, &mut Vec::new())?;
+    let mentions = Mentions::of(&value);
     // Only where it must: what is parsed from the text itself has line numbers in its errors.
     let root = if add_empty_scenes(&mut value) {
         serde_json::from_str(&value.to_string())
     } else {
         serde_json::from_slice(&json)
     };
-    Ok(Parts { root: root.map_err(parse_error)?, binary })
+    Ok(Parts { root: root.map_err(parse_error)?, binary, mentions })
 }
 
 /// A scene without `nodes` is an empty one; the crate insists on the member. Returns whether there

@@ -68,6 +68,8 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
             Vec3::from(material.emissive_factor()) * material.emissive_strength().unwrap_or(1.0)
         }
     };
+    let both_sides = material.double_sided() && emission != Vec3::ZERO;
+    notes.count("double-sided emitters, emit from their front alone", both_sides.into());
     let index = material.index().map_or("default".to_owned(), |index| format!("material-{index}"));
     let made = Material {
         name: material.name().map_or(index, str::to_owned),
@@ -103,6 +105,8 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
 
 fn note_ignored(material: &gltf_crate::Material, notes: &mut Notes) {
     let surface = material.pbr_metallic_roughness();
+    let specular = material.specular();
+    let specular = specular.as_ref();
     let ignored = [
         (
             "metallic-roughness textures replaced by their mean",
@@ -114,6 +118,12 @@ fn note_ignored(material: &gltf_crate::Material, notes: &mut Notes) {
             "emissive textures ignored, their materials emit nothing",
             material.emissive_texture().is_some(),
         ),
+        ("specular textures ignored", specular.is_some_and(|s| s.specular_texture().is_some())),
+        (
+            "specular textures ignored",
+            specular.is_some_and(|s| s.specular_color_texture().is_some()),
+        ),
+        ("single-sided materials, drawn from both sides", !material.double_sided()),
         ("materials with an alpha mask, drawn opaque", material.alpha_mode() == AlphaMode::Mask),
         ("blended materials, drawn opaque", material.alpha_mode() == AlphaMode::Blend),
         ("default materials where the file names none", material.index().is_none()),

@@ -7,12 +7,15 @@
 
 mod buffers;
 mod container;
+mod extensions;
 mod fault;
 mod import;
 mod materials;
+mod mentions;
 mod nodes;
 mod notes;
 mod optics;
+mod place;
 mod primitives;
 mod ranges;
 mod source;
@@ -29,22 +32,25 @@ use self::import::Import;
 use self::materials::Materials;
 use self::notes::Notes;
 use self::source::Source;
-use crate::{LoadError, Scene};
+use crate::{Camera, LoadError, Scene};
 
-/// Loads a glTF file: its default scene, in world space.
+/// Loads a glTF file: its default scene, in world space, with its lights or without.
 ///
 /// # Errors
 /// One line with the file, the place in it and what is wrong.
-pub(crate) fn load(path: &Path) -> Result<Scene, LoadError> {
-    import(path).map_err(|error| error.within(path.display()))
+pub(crate) fn load(path: &Path, keep_lights: bool) -> Result<Scene, LoadError> {
+    import(path, keep_lights).map_err(|error| error.within(path.display()))
 }
 
-fn import(path: &Path) -> Result<Scene, LoadError> {
+fn import(path: &Path, keep_lights: bool) -> Result<Scene, LoadError> {
     let bytes = std::fs::read(path)
         .map_err(|error| LoadError::new("cannot be read", error, "check the path"))?;
-    let container::Parts { mut root, binary } = container::open(&bytes)?;
+    let container::Parts { mut root, binary, mentions } = container::open(&bytes)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut notes = Notes::default();
+    for (name, objects) in mentions.extensions {
+        notes.count(format!("extension {name} ignored"), objects);
+    }
     validate::references(&mut root, &mut notes)?;
     validate::primitives(&root)?;
     let buffers = &Buffers::read(&root, folder, binary)?;
@@ -57,8 +63,33 @@ fn import(path: &Path) -> Result<Scene, LoadError> {
         materials: Materials::default(),
         notes,
         scene: Scene { name, exposure: 1.0, ..Scene::default() },
+        keep_lights,
+        far_planes: Vec::new(),
+        rounded: 0,
+        rounded_whole: 0,
     };
     nodes::add_all(&mut import, roots)?;
-    let Import { scene, notes, .. } = import;
+    note_whole(&mut import);
+    let Import { mut scene, notes, .. } = import;
+    scene.sources.push(path.to_owned());
+    scene.sources.extend(mentions.uris.iter().map(|uri| buffers::mentioned(uri, folder)));
     Ok(Scene { notes: notes.into_lines(), ..scene })
+}
+
+/// Notes that need the whole scene.
+fn note_whole(import: &mut Import) {
+    let Import { scene, notes, far_planes, .. } = import;
+    let (low, high) = scene.bounds();
+    let is_cut = |(camera, far): &(&Camera, &f32)| {
+        let farthest = (camera.forward * low).max(camera.forward * high).element_sum();
+        farthest - camera.forward.dot(camera.position) > **far
+    };
+    let cut = scene.cameras.iter().zip(&*far_planes).filter(is_cut).count();
+    notes.count("cameras whose far plane cuts the scene, drawn without it", cut as u64);
+    // Some small triangles are in every scene, not so most of them or a whole object.
+    let most = 2 * import.rounded > scene.triangles.len() as u64;
+    notes.count(
+        "triangles too far from the origin for single precision, rounded (move the scene there)",
+        if most { import.rounded } else { import.rounded_whole },
+    );
 }

@@ -9,6 +9,7 @@ use gltf_crate::json::{Accessor, Index, Root, scene};
 use super::fault::broken;
 use super::import::Import;
 use super::notes::Notes;
+use super::place::Place;
 use super::{optics, primitives};
 use crate::LoadError;
 
@@ -26,6 +27,7 @@ pub(super) fn roots(root: &Root, notes: &mut Notes) -> Result<Vec<usize>, LoadEr
         notes.count("no scene defined, all root nodes drawn", parentless.len() as u64);
         return Ok(parentless);
     };
+    notes.count("scenes besides the one drawn, left out", root.scenes.len() as u64 - 1);
     let mut roots: Vec<_> = scene.nodes.iter().map(|index| index.value()).collect();
     let place = format!("scenes[{default}].nodes");
     if let Some(node) = roots.iter().find(|&node| parentless.binary_search(node).is_err()) {
@@ -70,17 +72,17 @@ fn forest(nodes: &[scene::Node]) -> Result<Vec<usize>, LoadError> {
 pub(super) fn add_all(import: &mut Import, roots: Vec<usize>) -> Result<(), LoadError> {
     let nodes: Vec<_> = import.source.document.nodes().collect();
     let mut placed = Vec::new();
-    let mut stack: Vec<_> = roots.into_iter().rev().map(|node| (node, Mat4::IDENTITY)).collect();
+    let mut stack: Vec<_> = roots.into_iter().rev().map(|node| (node, Place::ORIGIN)).collect();
     while let Some((index, parent)) = stack.pop() {
         let node = &nodes[index];
-        let to_world = parent * Mat4::from_cols_array_2d(&node.transform().matrix());
-        placed.push((index, to_world));
-        let children: Vec<_> = node.children().map(|child| (child.index(), to_world)).collect();
+        let place = parent.of(Mat4::from_cols_array_2d(&node.transform().matrix()));
+        placed.push((index, place));
+        let children: Vec<_> = node.children().map(|child| (child.index(), place)).collect();
         stack.extend(children.into_iter().rev());
     }
     check_size(import.source.document.as_json(), placed.iter().map(|&(index, _)| index))?;
-    for (index, to_world) in placed {
-        add(import, &nodes[index], to_world)
+    for (index, place) in placed {
+        add(import, &nodes[index], place)
             .map_err(|error| error.within(format!("nodes[{index}]")))?;
     }
     Ok(())
@@ -106,15 +108,16 @@ fn check_size(root: &Root, nodes: impl Iterator<Item = usize>) -> Result<(), Loa
     Err(LoadError::new("nodes", problem, "reduce the meshes or their instances"))
 }
 
-fn add(import: &mut Import, node: &gltf_crate::Node, to_world: Mat4) -> Result<(), LoadError> {
+fn add(import: &mut Import, node: &gltf_crate::Node, place: Place) -> Result<(), LoadError> {
+    let Place { to_world, .. } = place;
     if let Some(mesh) = node.mesh() {
         for primitive in mesh.primitives() {
-            primitives::add(import, &primitive, to_world).map_err(|error| {
+            primitives::add(import, &primitive, place).map_err(|error| {
                 error.within(format!("meshes[{}].primitives[{}]", mesh.index(), primitive.index()))
             })?;
         }
     }
-    if let Some(light) = node.light() {
+    if let Some(light) = node.light().filter(|_| import.keep_lights) {
         optics::add_light(import, &light, to_world)?;
     }
     if let Some(camera) = node.camera() {

@@ -14,6 +14,9 @@ use crate::{Camera, Light, LoadError};
 /// Widest half-angle of a spot light: at a right angle its map of texels would be infinite.
 const MAX_CONE: f32 = 89.0 * PI / 180.0;
 
+/// The extension's units are the candela and the lux, and it leaves open how many of them make a watt.
+const PHOTOMETRIC: &str = "lights in candela or lux, taken as W/sr or W/m² (683 times too bright if exported at 683 lm/W)";
+
 /// Adds the light of a node.
 ///
 /// # Errors
@@ -27,6 +30,7 @@ pub(super) fn add_light(
     if !intensity.is_finite() || intensity.min_element() < 0.0 {
         return Err(broken("light", "its colour times its intensity is negative or infinite"));
     }
+    import.notes.count(PHOTOMETRIC, 1);
     import.notes.count("lights whose range is ignored", light.range().is_some().into());
     import.scene.lights.push(match light.kind() {
         Kind::Point => Light::Point { position: origin(to_world)?, intensity },
@@ -78,6 +82,7 @@ pub(super) fn add_camera(
     // Aimed from the origin: far from it `position + forward` would be rounded.
     let aimed = Camera::look_at(&name, Vec3::ZERO, forward, up, fov);
     cameras.push(Camera { position: origin(to_world)?, ..aimed });
+    import.far_planes.push(lens.zfar().unwrap_or(f32::INFINITY));
     Ok(())
 }
 

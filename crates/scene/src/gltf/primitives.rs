@@ -1,13 +1,18 @@
 //! Triangles of a mesh primitive, brought to world space.
 
 use ::gltf as gltf_crate;
-use glam::{Mat3, Mat4, Vec2, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 use gltf_crate::mesh::Mode;
 use gltf_crate::{Primitive, Semantic};
 
 use super::fault::broken;
 use super::import::Import;
+use super::place::Place;
 use crate::{LoadError, Scene, Triangle, Vertex};
+
+/// Lengths of a triangle's longest edge between it and the origin up to which single precision rounds
+/// its corners by less than 1/2048 of that edge.
+const MAX_REACH: f32 = 8192.0;
 
 /// Appends a primitive to the scene.
 ///
@@ -16,13 +21,13 @@ use crate::{LoadError, Scene, Triangle, Vertex};
 pub(super) fn add(
     import: &mut Import,
     primitive: &Primitive,
-    to_world: Mat4,
+    place: Place,
 ) -> Result<(), LoadError> {
     if matches!(primitive.mode(), Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip) {
         import.notes.count("primitives of points or lines left out", 1);
         return Ok(());
     }
-    let vertices = Vertices::read(import, primitive, to_world);
+    let vertices = Vertices::read(import, primitive, place);
     let indices = indices(import, primitive, vertices.positions.len())?;
     let material = primitive.material();
     let material =
@@ -33,9 +38,9 @@ pub(super) fn add(
         _ => matches!(indices.len(), 1 | 2),
     };
     import.notes.count("primitives with incomplete triangles at their end", left_over.into());
-    let mut builder =
-        Builder { vertices: &vertices, shared: vec![None; vertices.positions.len()], material };
-    let mirrored = to_world.determinant() < 0.0;
+    let shared = vec![None; vertices.positions.len()];
+    let mut builder = Builder { vertices: &vertices, shared, material, rounded: 0 };
+    let mirrored = place.to_world.determinant() < 0.0;
     for mut corners in triangles(primitive.mode(), &indices) {
         if mirrored {
             corners.swap(1, 2);
@@ -43,6 +48,10 @@ pub(super) fn add(
         if let Some(flaw) = builder.add(&mut import.scene, corners) {
             import.notes.count(flaw, 1);
         }
+    }
+    import.rounded += builder.rounded;
+    if MAX_REACH * vertices.extent() < vertices.reach {
+        import.rounded_whole += builder.rounded;
     }
     Ok(())
 }
@@ -82,10 +91,13 @@ struct Vertices {
     /// Unit, or `None` where the file's normal has no direction.
     normals: Vec<Option<Vec3>>,
     uvs: Vec<Vec2>,
+    /// Largest coordinate that was rounded on their way here.
+    reach: f32,
 }
 
 impl Vertices {
-    fn read(import: &mut Import, primitive: &Primitive, to_world: Mat4) -> Self {
+    fn read(import: &mut Import, primitive: &Primitive, place: Place) -> Self {
+        let Place { to_world, mut reach } = place;
         let buffers = import.source.buffers;
         let reader = primitive.reader(|buffer| Some(buffers.get(buffer.index())));
         // Cofactors carry normals also where the matrix has no inverse.
@@ -95,20 +107,38 @@ impl Vertices {
         let cofactors = side * Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
 
         let positions = reader.read_positions().into_iter().flatten();
-        let positions: Vec<_> =
-            positions.map(|position| to_world.transform_point3(position.into())).collect();
+        let positions: Vec<_> = positions
+            .map(|position| {
+                let offset = to_world.transform_vector3(position.into());
+                reach = reach.max(offset.abs().max_element());
+                to_world.transform_point3(position.into())
+            })
+            .collect();
         let normals = reader.read_normals().into_iter().flatten();
         let normals: Vec<_> =
             normals.map(|normal| (cofactors * Vec3::from(normal)).try_normalize()).collect();
         let texture = primitive.material().pbr_metallic_roughness().base_color_texture();
-        let uvs = texture.and_then(|info| reader.read_tex_coords(info.tex_coord()));
-        let uvs = uvs.into_iter().flat_map(|uvs| uvs.into_f32().map(Vec2::from)).collect();
+        let uvs = texture.as_ref().and_then(|info| reader.read_tex_coords(info.tex_coord()));
+        let uvs: Vec<_> = uvs.into_iter().flat_map(|uvs| uvs.into_f32().map(Vec2::from)).collect();
+        import.notes.count(
+            "primitives without the texture coordinates that their material asks for, drawn in the \
+             colour at (0, 0)",
+            (texture.is_some() && uvs.is_empty()).into(),
+        );
         let colors = primitive.get(&Semantic::Colors(0)).is_some();
         import.notes.count("primitives whose vertex colours are ignored", colors.into());
         import
             .notes
             .count("primitives without normals, flat ones computed", u64::from(normals.is_empty()));
-        Self { positions, normals, uvs }
+        Self { positions, normals, uvs, reach }
+    }
+
+    /// Diagonal of their bounds.
+    fn extent(&self) -> f32 {
+        let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let bounds = |(low, high): (Vec3, Vec3), p: &Vec3| (low.min(*p), high.max(*p));
+        let (low, high) = self.positions.iter().fold(empty, bounds);
+        low.distance(high)
     }
 }
 
@@ -118,6 +148,8 @@ struct Builder<'a> {
     /// Where the scene has a vertex already.
     shared: Vec<Option<u32>>,
     material: u32,
+    /// Triangles that are small for their distance from the origin.
+    rounded: u64,
 }
 
 impl Builder<'_> {
@@ -132,6 +164,8 @@ impl Builder<'_> {
         let Some(flat) = (b - a).cross(c - a).try_normalize() else {
             return Some("triangles without area left out");
         };
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        self.rounded += u64::from(MAX_REACH * longest < self.vertices.reach);
         let vertices = corners.map(|corner| self.vertex(scene, corner, flat));
         scene.triangles.push(Triangle { vertices, material: self.material });
         None

@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use ::gltf as gltf_crate;
 use glam::{DVec3, U8Vec3, Vec3};
-use gltf_crate::texture::WrappingMode;
+use gltf_crate::texture::{MagFilter, MinFilter, Sampler, WrappingMode};
 use image::error::{ImageError, LimitErrorKind};
 use image::{ImageReader, Limits};
 
@@ -42,6 +42,10 @@ impl Textures {
         let sampler = texture.sampler();
         let repeats = [sampler.wrap_s(), sampler.wrap_t()] == [WrappingMode::Repeat; 2];
         notes.count("textures repeated against their sampler", u64::from(!repeats));
+        notes.count(
+            "textures filtered bilinearly against their sampler",
+            is_nearest(&sampler).into(),
+        );
         if let Some(&index) = self.indices.get(&image) {
             return Ok(Some(index));
         }
@@ -50,6 +54,17 @@ impl Textures {
         self.indices.insert(image, index);
         Ok(Some(index))
     }
+}
+
+/// Whether a texel is to be seen as a square, near or far. That there are no mip levels is what the
+/// specification allows.
+fn is_nearest(sampler: &Sampler) -> bool {
+    use MinFilter::{Nearest, NearestMipmapLinear, NearestMipmapNearest};
+    sampler.mag_filter() == Some(MagFilter::Nearest)
+        || matches!(
+            sampler.min_filter(),
+            Some(Nearest | NearestMipmapNearest | NearestMipmapLinear)
+        )
 }
 
 /// The mean of a texture's channels, in [0, 1], without a transfer function; white where the file has

@@ -6,7 +6,6 @@ use gltf_crate::json::mesh::{Primitive, Semantic};
 use gltf_crate::json::validation::{Checked, Error, Validate};
 use gltf_crate::json::{Accessor, Index, Path, Root, camera};
 
-use super::container::UNDERSTOOD;
 use super::fault::broken;
 use super::notes::Notes;
 use crate::LoadError;
@@ -47,9 +46,6 @@ fn harmless(path: &str, error: Error) -> bool {
 
 fn strip(root: &mut Root, notes: &mut Notes) {
     root.extensions_required.clear(); // checked before
-    for name in root.extensions_used.iter().filter(|name| !UNDERSTOOD.contains(&name.as_str())) {
-        notes.count(format!("extension {name} ignored"), 1);
-    }
     notes.count("animations ignored", root.animations.len() as u64);
     root.animations.clear();
     notes.count("skins ignored, meshes drawn in their bind pose", root.skins.len() as u64);

@@ -8,9 +8,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use self::spec::{CameraSpec, LightSpec, MaterialSpec, number};
-use crate::builtin::BUILTINS;
 use crate::error::suggestion;
-use crate::{LoadError, Material, Scene, gltf};
+use crate::{LoadError, Material, Scene, builtin, gltf};
 
 /// A scene file as it is written.
 #[derive(Deserialize)]
@@ -42,7 +41,8 @@ fn yes() -> bool {
 /// Loads a scene file and its source.
 pub(crate) fn load(path: &Path, assets: Option<&Path>) -> Result<Scene, LoadError> {
     let file = read(path)?;
-    let mut scene = source(path, &file.source, assets)?;
+    let mut scene = source(path, &file, assets)?;
+    scene.sources.push(path.to_owned());
     if let Some(stem) = path.file_stem() {
         scene.name = stem.to_string_lossy().into_owned();
     }
@@ -63,6 +63,9 @@ pub(crate) fn load(path: &Path, assets: Option<&Path>) -> Result<Scene, LoadErro
         let place = format!("{place}: material `{name}`");
         for material in found {
             spec.apply(material, &place, |name| located(path, name, assets))?;
+        }
+        if let Some(name) = &spec.measured {
+            scene.sources.push(located(path, name, assets)?);
         }
     }
     Ok(scene)
@@ -95,15 +98,11 @@ fn remedy(message: &str) -> String {
     }
 }
 
-fn source(file: &Path, source: &str, assets: Option<&Path>) -> Result<Scene, LoadError> {
-    if let Some(name) = source.strip_prefix("builtin:") {
-        let names = BUILTINS.iter().map(|builtin| builtin.name);
-        return match BUILTINS.iter().find(|builtin| builtin.name == name) {
-            Some(builtin) => Ok((builtin.make)()),
-            None => Err(LoadError::unknown(file.display(), "built-in scene", name, names)),
-        };
+fn source(path: &Path, file: &SceneFile, assets: Option<&Path>) -> Result<Scene, LoadError> {
+    match file.source.strip_prefix(builtin::PREFIX) {
+        Some(name) => builtin::named(name, path.display()),
+        None => gltf::load(&located(path, &file.source, assets)?, file.keep_lights),
     }
-    gltf::load(&located(file, source, assets)?)
 }
 
 /// The path of a file that `file` names: `asset:PATH`, or relative to it.

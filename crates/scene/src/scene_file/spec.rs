@@ -47,7 +47,7 @@ pub(super) struct MaterialSpec {
     /// A reflectance by name, instead of all of the above but the emission.
     preset: Option<String>,
     /// Likewise, from a file: `asset:PATH` below the assets folder, or a path relative to this file.
-    measured: Option<String>,
+    pub(super) measured: Option<String>,
 }
 
 impl CameraSpec {

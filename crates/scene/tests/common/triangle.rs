@@ -5,7 +5,7 @@ use base64::engine::general_purpose::STANDARD;
 use manylights_scene::{LoadError, Scene, load};
 use serde_json::{Value, json};
 
-use super::check_line;
+use super::{check_invariants, check_line};
 
 /// One triangle in the plane z = 0 with 16-bit indices: 36 + 6 bytes.
 pub(crate) fn triangle() -> Value {
@@ -67,4 +67,54 @@ pub(crate) fn refused<const N: usize>(cases: [(&str, Change); N]) {
 
 pub(crate) fn noted(scene: &Scene, note: &str) -> bool {
     scene.notes.iter().any(|line| line == note)
+}
+
+/// Changes the triangle and loads it.
+pub(crate) fn load_with(change: impl FnOnce(&mut Value)) -> Scene {
+    let mut root = triangle();
+    change(&mut root);
+    let scene = load_json(&root).unwrap_or_else(|error| panic!("{error}"));
+    check_invariants(&scene, "import");
+    scene
+}
+
+/// Adds an accessor over data of its own and returns its index.
+pub(crate) fn accessor(
+    root: &mut Value,
+    component: u32,
+    shape: &str,
+    count: usize,
+    bytes: &[u8],
+) -> usize {
+    let push = |root: &mut Value, list: &str, value: Value| {
+        let list = root[list].as_array_mut().expect("is one");
+        list.push(value);
+        list.len() - 1
+    };
+    let buffer = json!({ "byteLength": bytes.len(), "uri": data_uri(bytes) });
+    let buffer = push(root, "buffers", buffer);
+    let view = json!({ "buffer": buffer, "byteLength": bytes.len() });
+    let view = push(root, "bufferViews", view);
+    let accessor = json!({
+        "bufferView": view, "componentType": component, "type": shape, "count": count,
+        "normalized": component != 5126 && shape != "SCALAR",
+    });
+    push(root, "accessors", accessor)
+}
+
+pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+pub(crate) fn attribute(root: &mut Value, name: &str, accessor: usize) {
+    root["meshes"][0]["primitives"][0]["attributes"][name] = json!(accessor);
+}
+
+/// A PNG of 2 × 1 texels.
+pub(crate) fn two_texels(left: [u8; 3], right: [u8; 3]) -> Value {
+    let mut png = std::io::Cursor::new(Vec::new());
+    let pixels = [left, right].concat();
+    let image = image::RgbImage::from_raw(2, 1, pixels).expect("2 × 1 × 3 bytes");
+    image.write_to(&mut png, image::ImageFormat::Png).expect("can encode");
+    json!({ "uri": data_uri(&png.into_inner()) })
 }

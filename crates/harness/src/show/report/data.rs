@@ -131,6 +131,8 @@ fn done(answer: &SceneAnswer, index: usize, medians: &Medians, names: &[String])
         "seconds": seconds.median,
         "seconds_lower": seconds.lower,
         "seconds_upper": seconds.upper,
+        "bake_seconds": medians.bake_seconds,
+        "bake_counters": medians.bake_counters,
         "prepare_seconds": medians.prepare_seconds,
         "errors": names.iter().filter_map(against).collect::<serde_json::Map<_, _>>(),
     })

@@ -45,10 +45,10 @@ pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
     let last = cells.last().ok_or_else(|| refuse("there are no cells in cells.jsonl"))?;
     let experiment = profile_of(last, &file)?
         .ok_or_else(|| refuse("the last cell is of another experiment or profile"))?;
-    let mut scenes: Vec<(&str, BTreeMap<Key<'_>, &Cell>)> = Vec::new();
+    let mut scenes: Vec<(String, BTreeMap<Key<'_>, &Cell>)> = Vec::new();
     for cell in &cells {
         let Some(turn) = turn_of(cell, &experiment) else { continue };
-        let name = cell.inputs.scene.as_str();
+        let name = cell.inputs.view();
         let index = scenes.iter().position(|(scene, _)| *scene == name).unwrap_or_else(|| {
             scenes.push((name, BTreeMap::new()));
             scenes.len() - 1
@@ -89,6 +89,7 @@ fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
         variant.method.id() == inputs.method
             && variant.given() == inputs.parameters
             && variant.budget == inputs.budget
+            && variant.bounded == inputs.bounded
     })?;
     let referred = experiment.references.iter().all(|reference| {
         let samples = inputs.references.get(&reference.to_string());
@@ -96,6 +97,7 @@ fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
     });
     let asked = inputs.resolution == scale.resolution
         && inputs.transport == experiment.transport.to_string()
+        && experiment.cameras().contains(&inputs.camera.as_deref())
         && scale.seeds.contains(&inputs.seed)
         && inputs.repetition < scale.repetitions;
     (referred && asked).then_some(Turn {
@@ -107,7 +109,7 @@ fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
 
 fn scene_cells(
     experiment: &Experiment,
-    scene: &str,
+    scene: String,
     cells: &BTreeMap<Key<'_>, &Cell>,
     directory: &Path,
 ) -> Result<SceneCells, Failure> {
@@ -127,6 +129,7 @@ fn scene_cells(
         exposure: inputs.exposure,
         references: experiment.references.iter().map(reference).collect::<Result<_, _>>()?,
         cells: cells.iter().map(turn).collect(),
-        scene: scene.to_owned(),
+        camera: inputs.camera.clone(),
+        scene,
     })
 }

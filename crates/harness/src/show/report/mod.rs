@@ -28,6 +28,9 @@ use template::{escaped, fill, in_script};
 
 pub(crate) use load::{Loaded, load};
 
+/// Its name.
+pub(crate) const FILE: &str = "report.html";
+
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: [&str; 2] = [include_str!("page/page.css"), include_str!("page/viewer.css")];
 /// Each declares what the next ones use.
@@ -61,7 +64,7 @@ impl Report<'_> {
     /// # Errors
     /// One line where a picture cannot be read or the page cannot be written.
     pub(crate) fn write(&self, out: &Path) -> Result<(), Failure> {
-        let path = out.join("report.html");
+        let path = out.join(FILE);
         output::write(&path, self.html(out)?.as_bytes())?;
         eprintln!("{}", path.display());
         Ok(())

@@ -8,13 +8,13 @@ use crate::question::experiment::Experiment;
 use crate::question::plan::{Budget, Variant};
 
 /// Columns before those of the metrics.
-const COLUMNS: usize = 20;
+const COLUMNS: usize = 23;
 
 /// The table for programs: one line for each scene, variant and reference.
 pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
     let mut text = String::from(
-        "scene,method,parameters,time_budget,machine,reference,outcome,rank,rank_shared,amount,runs,seconds,\
-         seconds_lower,seconds_upper,pass_seconds,prepare_seconds,linear_floor,display_floor,display_bias,\
+        "scene,method,parameters,time_budget,bounded,machine,reference,outcome,rank,rank_shared,amount,runs,seconds,\
+         seconds_lower,seconds_upper,pass_seconds,bake_seconds,bake_pass_seconds,prepare_seconds,linear_floor,display_floor,display_bias,\
          display_deviation",
     );
     for space in ["linear", "display"] {
@@ -48,6 +48,7 @@ fn csv_line(
         variant.method.id().to_owned(),
         quoted(&parameters(variant)),
         budget(variant.budget),
+        bounded(variant).to_owned(),
         quoted(&row.machine),
         reference.to_owned(),
     ];
@@ -62,6 +63,8 @@ fn csv_line(
             let times = [seconds.median, seconds.lower, seconds.upper];
             fields.extend(times.map(|number| number.to_string()));
             fields.push(quoted(&passes(&medians.pass_seconds)));
+            fields.push(medians.bake_seconds.to_string());
+            fields.push(quoted(&passes(&medians.bake_pass_seconds)));
             let numbers =
                 [medians.prepare_seconds, comparison.linear_floor, comparison.display_floor];
             let metrics = values(&comparison.linear).chain(values(&comparison.display));
@@ -88,6 +91,14 @@ fn passes(seconds: &BTreeMap<String, f64>) -> String {
 fn parameters(variant: &Variant) -> String {
     let set = variant.parameters.iter().filter(|(name, _)| !variant.is_searched(name));
     set.map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(" ")
+}
+
+/// Which time a budget bounds.
+fn bounded(variant: &Variant) -> &'static str {
+    match variant.budget {
+        Budget::Count => "",
+        Budget::Seconds(_) | Budget::Baseline => variant.bounded.word(),
+    }
 }
 
 fn budget(budget: Budget) -> String {

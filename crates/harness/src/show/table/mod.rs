@@ -12,7 +12,7 @@ use crate::measurement::provenance::Provenance;
 use crate::measurement::time_budget::TOLERANCE;
 use crate::question::columns::Column;
 use crate::question::experiment::Experiment;
-use crate::question::plan::Budget;
+use crate::question::plan::{Budget, Variant};
 use crate::show::numbers::{milliseconds, short};
 
 pub(crate) use csv::csv;
@@ -108,11 +108,22 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &str) -> Tab
     }
 }
 
-/// The columns asked for, without the split of errors where there are too few seeds for it.
+/// The columns asked for, without the split of errors where there are too few seeds for it. A bake is
+/// shown where there is one, and only there: no time is told without it.
 fn shown(experiment: &Experiment, scene: &SceneAnswer) -> Vec<Column> {
-    let split = scene.rows.iter().filter_map(|row| row.medians()).any(|m| !m.bias.is_empty());
-    let wanted = |column: &Column| split || !matches!(column, Column::Bias | Column::Deviation);
-    experiment.columns.iter().copied().filter(wanted).collect()
+    let any = |of: fn(&Medians) -> bool| scene.rows.iter().filter_map(Row::medians).any(of);
+    let (split, baked) = (any(|row| !row.bias.is_empty()), any(|row| row.bake_seconds > 0.0));
+    let mut columns = experiment.columns.clone();
+    if baked && !columns.contains(&Column::Bake) {
+        let time = columns.iter().position(|&column| column == Column::Time);
+        columns.insert(time.map_or(columns.len(), |time| time + 1), Column::Bake);
+    }
+    columns.retain(|column| match column {
+        Column::Bias | Column::Deviation => split,
+        Column::Bake => baked,
+        _ => true,
+    });
+    columns
 }
 
 fn place(rank: Rank) -> String {
@@ -139,6 +150,7 @@ impl Place<'_> {
             Column::Counts => counts(medians),
             Column::Time => milliseconds(medians.seconds.median) + self.overrun(medians),
             Column::Quartiles => quartiles(medians.seconds),
+            Column::Bake => milliseconds(medians.bake_seconds),
             Column::TimeRatio => ratio(&|row| row.seconds.median),
             Column::Rmse => short(errors.display.rmse),
             Column::RmseRatio => {
@@ -156,15 +168,18 @@ impl Place<'_> {
 
     /// Marks a time that misses its budget.
     fn overrun(&self, medians: &Medians) -> &'static str {
-        let budget = match self.experiment.variants[self.row.variant].budget {
+        let Variant { budget, bounded, .. } = self.experiment.variants[self.row.variant];
+        let seconds =
+            |medians: &Medians| bounded.seconds(medians.seconds.median, medians.bake_seconds);
+        let budget = match budget {
             Budget::Count => return "",
             Budget::Seconds(seconds) => Some(seconds),
             Budget::Baseline => {
                 let baseline = self.scene.baseline(self.row).and_then(Row::medians);
-                baseline.map(|medians| medians.seconds.median)
+                baseline.map(seconds)
             }
         };
-        let off = budget.map(|budget| miss(medians.seconds.median, budget));
+        let off = budget.map(|budget| miss(seconds(medians), budget));
         if off.is_some_and(|off| off > TOLERANCE) { "!" } else { "" }
     }
 
@@ -268,6 +283,12 @@ pub(crate) fn foot(experiment: &Experiment) -> String {
          closer than the noise floor share a rank (=). All metrics are in `table.csv`.",
         experiment.variants[experiment.baseline].label()
     );
+    if experiment.variants.iter().any(|variant| variant.method.baking().is_some()) {
+        text.push_str(
+            " Bake: wall clock of what further frames reuse, made once for a scene and for each camera, \
+             seed or amount of work that it depends on; no part of the time.",
+        );
+    }
     if experiment.scale.seeds.len() > 1 {
         text.push_str(
             " RMSE² = bias² + deviation² over seeds, but for the noise of the reference. ≈: the \

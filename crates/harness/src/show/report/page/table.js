@@ -21,6 +21,7 @@ const GROUPS = [
     { id: 'quartiles', title: 'quartiles', value: (row) => row.seconds_upper - row.seconds_lower, text: (row) => `${short(1e3 * row.seconds_lower)}–${short(1e3 * row.seconds_upper)}` },
     { id: 'runs', title: 'n', value: (row) => row.runs, text: (row) => String(row.runs) },
     { id: 'time_ratio', title: '÷ base', value: (row) => over(row.seconds, baseline(row)?.seconds) },
+    { id: 'bake', title: 'bake', value: (row) => (row.bake_seconds ? 1e3 * row.bake_seconds : null), optional: true },
     { id: 'prepare', title: 'preparation', value: (row) => 1e3 * row.prepare_seconds },
   ]],
   ['error of sRGB values', [
