@@ -25,7 +25,7 @@ fn pixels_sum_what_they_see<L: Copy>(
         let (lights, surfaces) = (lights(&stage), stage.surfaces());
         let centers: Vec<_> = lights.iter().map(&center).collect();
         let shadows = Shadows::new(&stage.on_gpu, &stage.scene).expect("the hierarchy fits");
-        let hidden = shadows.hidden_lights(&stage.on_gpu, &centers).expect("a pass");
+        let hidden = shadows.hidden_lights(&centers).expect("a pass");
         let share = hidden.iter().filter(|hidden| **hidden).count() as f64 / hidden.len() as f64;
         assert!(share > 0.05 && share < 0.95, "{share} hidden: a weak test");
         let eye = stage.scene.cameras[0].position.as_dvec3();

@@ -23,10 +23,10 @@ impl UniformBatches {
     /// records: one batch of count 0.
     ///
     /// # Errors
-    /// Where the adapter refuses the buffer.
+    /// Where a batch or all of them exceed what the adapter holds.
     ///
     /// # Panics
-    /// Where a batch exceeds 64 KiB, the record is no multiple of 16 bytes or `most` is not in
+    /// Where the record is no multiple of 16 bytes or `most` is not in
     /// 1..=`capacity`.
     pub fn new<T: Pod>(
         gpu: &Gpu,
@@ -36,12 +36,18 @@ impl UniformBatches {
         most: usize,
     ) -> Result<Self, Error> {
         let batch_size = Self::HEADER + capacity * size_of::<T>();
-        assert!(batch_size <= 65536, "a batch of {batch_size} bytes exceeds 64 KiB");
         assert!(size_of::<T>().is_multiple_of(16), "uniform arrays have a stride of 16 bytes");
         assert!((1..=capacity).contains(&most), "{most} records in a batch of {capacity}");
-        let alignment = gpu.shared.limits.min_uniform_buffer_offset_alignment as usize;
-        let stride = batch_size.next_multiple_of(alignment);
+        let limits = &gpu.shared.limits;
+        let bindable = limits.max_uniform_buffer_binding_size;
+        let mend = "make batches of fewer records";
+        gpu.fits(&format!("a batch of {label}"), [batch_size as u64, bindable], "bytes", mend)?;
+        let stride =
+            batch_size.next_multiple_of(limits.min_uniform_buffer_offset_alignment as usize);
         let batches = records.len().div_ceil(most).max(1);
+        // Offsets of batches have 32 bits.
+        let largest = limits.max_buffer_size.min(u32::MAX.into());
+        gpu.fits(label, [(batches * stride) as u64, largest], "bytes", "choose fewer lights")?;
         let mut bytes = vec![0_u8; batches * stride];
         let mut counts = vec![0; batches];
         for (index, chunk) in records.chunks(most).enumerate() {

@@ -76,51 +76,13 @@ impl Gpu {
     /// # Errors
     /// Where the device was lost.
     pub fn read<T: Pod>(&self, buffer: &Buffer) -> Result<Vec<T>, Error> {
-        let size = buffer.size();
-        let staging = self.device().create_buffer(&wgpu::BufferDescriptor {
-            label: Some("read-back"),
-            size,
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let mut encoder = self.device().create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(&buffer.raw, 0, &staging, 0, size);
-        self.shared.queue.submit([encoder.finish()]);
-        let bytes = self.mapped(&staging)?;
-        let whole = bytes.len() / size_of::<T>() * size_of::<T>();
-        Ok(bytemuck::pod_collect_to_vec(&bytes[..whole]))
-    }
-
-    pub(crate) fn mapped(&self, staging: &wgpu::Buffer) -> Result<Vec<u8>, Error> {
-        let (sender, receiver) = std::sync::mpsc::channel();
-        staging.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver waits below; it can only be gone after a panic there.
-            let _ = sender.send(result);
-        });
-        self.wait()?;
-        let failed = |e: String| Error::new(format!("read-back: {e}"));
-        receiver.recv().map_err(|e| failed(e.to_string()))?.map_err(|e| failed(e.to_string()))?;
-        let view = staging.get_mapped_range(..).map_err(|e| failed(e.to_string()))?;
-        Ok(view.to_vec())
-    }
-
-    pub(crate) fn wait(&self) -> Result<(), Error> {
-        self.device()
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map(|_| ())
-            .map_err(|e| Error::new(format!("waiting for the adapter: {e}")))
+        let encoder = self.device().create_command_encoder(&Default::default());
+        self.read_back(encoder, &buffer.raw, buffer.size())
     }
 
     fn allowed(&self, label: &str, size: u64) -> Result<(), Error> {
         let limits = &self.shared.limits;
         let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-        if size <= most {
-            return Ok(());
-        }
-        Err(Error::new(format!(
-            "{label} needs {size} bytes and `{}` binds at most {most}: choose a lower resolution \
-             or another adapter",
-            self.report().name
-        )))
+        self.fits(label, [size, most], "bytes", "choose a lower resolution or less work")
     }
 }

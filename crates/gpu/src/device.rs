@@ -2,7 +2,8 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::pipeline::{Binding, Kernel};
-use crate::{AdapterReport, Error};
+use crate::timestamps::Timestamps;
+use crate::{AdapterReport, Error, Limits};
 
 /// An open adapter. Clones share it.
 #[derive(Clone)]
@@ -17,10 +18,13 @@ pub(crate) struct Shared {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     pub(crate) report: AdapterReport,
+    pub(crate) opened_with: Limits,
     pub(crate) limits: wgpu::Limits,
-    /// Whether timestamps tell the time of a pass. Those of llvmpipe do not: it runs a dispatch at
+    /// Where timestamps tell the time of a pass. Those of llvmpipe do not: it runs a dispatch at
     /// once and both timestamps later, when its rasteriser is flushed.
-    pub(crate) timestamps: bool,
+    pub(crate) timestamps: Option<Mutex<Timestamps>>,
+    /// Where read-backs land; grows with the largest.
+    pub(crate) staging: Mutex<Option<wgpu::Buffer>>,
     /// llvmpipe compiles at the first dispatch of a pipeline, so a pipeline
     /// that was warmed up must be the one that is timed.
     pub(crate) kernels: Mutex<Kernels>,
@@ -29,11 +33,21 @@ pub(crate) struct Shared {
 
 impl Gpu {
     /// Opens the adapter whose name contains `adapter` (case-insensitive); without it the one named by
-    /// `WGPU_ADAPTER_NAME`, else the first of: discrete, integrated, any.
+    /// `WGPU_ADAPTER_NAME`, else the first of: discrete, integrated, any; with the limits that
+    /// `MANYLIGHTS_LIMITS` names.
     ///
     /// # Errors
-    /// No adapter, none of that name (those that exist are listed), or it refuses a device.
+    /// No adapter, none of that name (those that exist are listed), unknown limits, or it refuses a
+    /// device.
     pub fn new(adapter: Option<&str>) -> Result<Self, Error> {
+        Self::with_limits(adapter, Limits::of_environment()?)
+    }
+
+    /// The same with limits of the caller.
+    ///
+    /// # Errors
+    /// As [`Gpu::new`].
+    pub fn with_limits(adapter: Option<&str>, opened_with: Limits) -> Result<Self, Error> {
         let instance =
             wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
@@ -42,7 +56,7 @@ impl Gpu {
         let info = adapter.get_info();
         let timestamps = info.device_type != wgpu::DeviceType::Cpu
             && adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
-        let limits = adapter.limits();
+        let limits = opened_with.of(&adapter);
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("manylights"),
             required_features: if timestamps {
@@ -57,11 +71,13 @@ impl Gpu {
             .map_err(|e| Error::new(format!("adapter `{}` gave no device: {e}", info.name)))?;
         let report = AdapterReport::new(&info, &limits);
         let shared = Shared {
+            timestamps: timestamps.then(|| Mutex::new(Timestamps::new(&device))),
+            staging: Mutex::default(),
             device,
             queue,
             report,
+            opened_with,
             limits,
-            timestamps,
             kernels: Mutex::default(),
             visibility: OnceLock::new(),
         };
@@ -75,6 +91,30 @@ impl Gpu {
 
     pub(crate) fn device(&self) -> &wgpu::Device {
         &self.shared.device
+    }
+
+    /// # Errors
+    /// One line where `what` needs more than is allowed, in `unit`; `mend` says what to do about it.
+    pub(crate) fn fits(
+        &self,
+        what: &str,
+        [needed, allowed]: [u64; 2],
+        unit: &str,
+        mend: &str,
+    ) -> Result<(), Error> {
+        if needed <= allowed {
+            return Ok(());
+        }
+        let (under, or_more) = match self.shared.opened_with {
+            Limits::Adapter => ("", ", or another adapter"),
+            Limits::Default => {
+                (" under MANYLIGHTS_LIMITS=default", ", or the adapter's own limits")
+            }
+        };
+        Err(Error::new(format!(
+            "{what} needs {needed} {unit} and `{}`{under} allows {allowed}: {mend}{or_more}",
+            self.report().name
+        )))
     }
 
     /// Runs `work` and turns any validation or memory error of the device into an [`Error`].

@@ -2,7 +2,7 @@
 
 use crate::scene_buffers::SceneBuffers;
 use crate::surface::SurfaceRecord;
-use crate::{Binding, Buffer, Dispatch, Error, Gpu, PassTime, Projection, Resource, link};
+use crate::{Binding, Buffer, Error, Gpu, PassTime, Projection, Resource, link};
 
 /// The surfaces that a projection sees: a storage buffer of `array<Surface>`, row-major.
 ///
@@ -14,10 +14,10 @@ pub(crate) fn rasterise(
     projection: &Projection,
 ) -> Result<(Buffer, Vec<PassTime>), Error> {
     let [width, height] = projection.resolution;
-    let largest = gpu.shared.limits.max_texture_dimension_2d;
-    if width.max(height) > largest {
-        return Err(Error::new(format!("{width}x{height} exceeds the adapter's {largest} texels")));
-    }
+    let largest = gpu.shared.limits.max_texture_dimension_2d.into();
+    let mend = "choose a lower resolution or fewer lights";
+    let what = format!("a map of {width}x{height}");
+    gpu.fits(&what, [width.max(height).into(), largest], "texels a side", mend)?;
     let texels = u64::from(width) * u64::from(height);
     let surfaces = gpu.zeroed("G-buffer", texels * size_of::<SurfaceRecord>() as u64)?;
     let uniform = gpu.uniform("projection", projection)?;
@@ -29,10 +29,10 @@ pub(crate) fn rasterise(
     bindings.extend([Binding::Storage; 5]);
     bindings.extend([Binding::TextureUint, Binding::StorageMut]);
     let kernel = gpu.kernel("resolve", &wgsl, &bindings)?;
-    times.extend(gpu.run(&[Dispatch {
-        pass: "resolve surfaces",
-        kernel: &kernel,
-        resources: &[
+    let pass = gpu.pass(
+        "resolve surfaces",
+        &kernel,
+        &[
             Resource::Buffer(&uniform),
             Resource::Buffer(&scene.vertices),
             Resource::Buffer(&scene.triangles),
@@ -42,8 +42,8 @@ pub(crate) fn rasterise(
             Resource::Texture(&numbers),
             Resource::Buffer(&surfaces),
         ],
-        workgroups: [width.div_ceil(64), height, 1],
-    }])?);
+    )?;
+    times.extend(gpu.run(&[pass.over([width.div_ceil(64), height, 1])])?);
     Ok((surfaces, times))
 }
 
@@ -69,7 +69,7 @@ fn draw(
             entries: &entries,
         })
     })?;
-    let seconds = gpu.timed(1, |encoder, _, queries| {
+    let seconds = gpu.timed(1, |encoder, _, timestamps| {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("visibility"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -93,10 +93,10 @@ fn draw(
                 }),
                 stencil_ops: None,
             }),
-            timestamp_writes: queries.map(|query_set| wgpu::RenderPassTimestampWrites {
-                query_set,
-                beginning_of_pass_write_index: Some(0),
-                end_of_pass_write_index: Some(1),
+            timestamp_writes: timestamps.map(|writes| wgpu::RenderPassTimestampWrites {
+                query_set: writes.query_set,
+                beginning_of_pass_write_index: writes.beginning_of_pass_write_index,
+                end_of_pass_write_index: writes.end_of_pass_write_index,
             }),
             ..Default::default()
         });

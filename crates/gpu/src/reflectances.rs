@@ -2,7 +2,7 @@
 
 use manylights_scene::{Brdf, Lobe, Measured, Scene};
 
-use crate::{Buffer, Error, Feature, Gpu};
+use crate::{Buffer, Error, Feature, Gpu, Table};
 
 /// The kinds of reflectance in a scene: what it does not contain is not in its kernels.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,8 +46,13 @@ impl Reflectances {
         [("exact_fresnel", self.exact_fresnel), ("measured", !self.measured.is_empty())]
     }
 
-    /// The tables of `shaders/measured.wesl`, the first of a gather's own bindings; none where nothing
-    /// is measured.
+    /// What `shaders/measured.wesl` reads, in the order of [`Reflectances::tables`].
+    pub fn table_names(&self) -> Vec<Table> {
+        let table = Table { name: "measured", element: "u32" };
+        self.measured.first().map(|_| table).into_iter().collect()
+    }
+
+    /// The tables of `shaders/measured.wesl`; none where nothing is measured.
     ///
     /// # Errors
     /// Where they exceed what the adapter binds.

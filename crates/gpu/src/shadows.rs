@@ -11,7 +11,8 @@ use manylights_scene::Scene;
 
 use crate::occluders::Occluders;
 use crate::{
-    Binding, Buffer, Dispatch, Error, GpuFrame, Kernel, Resource, UniformBatches, link, workgroups,
+    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, Kernel, Pass, Resource, UniformBatches, link,
+    workgroups,
 };
 
 /// Most lights of a batch, as `shaders/shadow.wesl` declares its array: a bit each and pixel.
@@ -49,6 +50,8 @@ struct View {
 
 /// The shadow pass for the pixels of one frame.
 pub struct Shadows {
+    gpu: Gpu,
+    surfaces: Buffer,
     occluders: Arc<Occluders>,
     vertices: Buffer,
     triangles: Buffer,
@@ -77,6 +80,8 @@ impl Shadows {
         let words = (lights_a_batch / WORD) as u64 * u64::from(pixels);
         let view = View { pixels, shift: occluders.shift, padding: [0; 2] };
         Ok(Self {
+            gpu: gpu.clone(),
+            surfaces: frame.surfaces().clone(),
             kernel: gpu.kernel("shadow", &wgsl, &bindings)?,
             view: gpu.uniform("view of shadows", &view)?,
             hidden: gpu.zeroed("hidden lights", 4 * words)?,
@@ -106,14 +111,14 @@ impl Shadows {
     ///
     /// # Errors
     /// Where the device gave up.
-    pub fn hidden_lights(&self, frame: &GpuFrame, centers: &[Center]) -> Result<Vec<bool>, Error> {
-        let (gpu, most) = (frame.gpu(), self.lights_a_batch);
+    pub fn hidden_lights(&self, centers: &[Center]) -> Result<Vec<bool>, Error> {
+        let (gpu, most) = (&self.gpu, self.lights_a_batch);
         let batches = UniformBatches::new(gpu, "centres", centers, Self::CAPACITY, most)?;
+        let pass = self.pass(&batches)?;
         let pixels = self.pixels as usize;
         let mut hidden = Vec::with_capacity(centers.len() * pixels);
         for (index, &count) in batches.counts().iter().enumerate() {
-            let resources = self.resources(frame.surfaces(), Resource::Batch(&batches, index));
-            gpu.run(&[self.dispatch(&resources)])?;
+            gpu.run(&[self.dispatch(&pass, index)])?;
             let words: Vec<u32> = gpu.read(&self.hidden)?;
             for light in 0..count as usize {
                 let words = &words[light / WORD * pixels..][..pixels];
@@ -128,29 +133,26 @@ impl Shadows {
         &self.hidden
     }
 
-    /// What the pass reads and writes for a batch of [`Center`]s.
-    pub fn resources<'a>(
-        &'a self,
-        surfaces: &'a Buffer,
-        centers: Resource<'a>,
-    ) -> [Resource<'a>; 8] {
+    /// The pass over batches of [`Center`]s.
+    ///
+    /// # Errors
+    /// Where the adapter refuses.
+    pub fn pass(&self, centers: &UniformBatches) -> Result<Pass, Error> {
         let Occluders { nodes, blocks, .. } = &*self.occluders;
-        let [view, surfaces, hidden, vertices, triangles, nodes, blocks] =
-            [&self.view, surfaces, &self.hidden, &self.vertices, &self.triangles, nodes, blocks]
-                .map(Resource::Buffer);
-        [view, surfaces, centers, hidden, vertices, triangles, nodes, blocks]
+        let [view, surfaces, hidden] =
+            [&self.view, &self.surfaces, &self.hidden].map(Resource::Buffer);
+        let [vertices, triangles, nodes, blocks] =
+            [&self.vertices, &self.triangles, nodes, blocks].map(Resource::Buffer);
+        let centers = Resource::Batches(centers);
+        let resources = [view, surfaces, centers, hidden, vertices, triangles, nodes, blocks];
+        self.gpu.pass("shadow", &self.kernel, &resources)
     }
 
-    /// The pass.
-    pub fn dispatch<'a>(&'a self, resources: &'a [Resource<'a>; 8]) -> Dispatch<'a> {
+    /// One batch of a [`Shadows::pass`].
+    pub fn dispatch<'a>(&self, pass: &'a Pass, batch: usize) -> Dispatch<'a> {
         let [columns, rows, _] = workgroups(self.pixels, 64);
         let words = (self.lights_a_batch / WORD) as u32;
-        Dispatch {
-            pass: "shadow",
-            kernel: &self.kernel,
-            resources,
-            workgroups: [columns, rows, words],
-        }
+        pass.over_batch(batch, [columns, rows, words])
     }
 }
 

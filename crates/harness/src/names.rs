@@ -14,6 +14,18 @@ pub(crate) fn unknown<'k>(
     }
 }
 
+/// What serde says of a file, in one line; an unknown key with the nearest of the known ones.
+pub(crate) fn mended(message: &str) -> String {
+    // serde words it: unknown field `a`, expected one of `b`, `c`
+    if message.starts_with("unknown field") {
+        let mut quoted = message.split('`').skip(1).step_by(2);
+        let key = quoted.next().unwrap_or_default();
+        unknown("key", key, quoted)
+    } else {
+        message.lines().collect::<Vec<_>>().join("; ")
+    }
+}
+
 fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
     known
         .iter()

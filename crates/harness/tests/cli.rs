@@ -5,7 +5,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{json, manylights, refused, succeeded, write_image};
+use common::{json, manylights, manylights_within, refused, succeeded, write_image};
 use manylights_metrics::RadianceImage;
 
 #[test]
@@ -112,8 +112,42 @@ fn bad_settings_are_refused_before_rendering() {
     ] {
         render_with(change, said);
     }
-    render_with(&["--visibility", "ignored", "--transport", "all"], "needs --transport indirect-1");
-    render_with(&["--visibility", "ignored", "--transport", "indirect-2"], "indirect-1");
+    for transport in ["all", "indirect-2"] {
+        let said = "is a choice of direct, indirect-1 and direct+indirect-1, not of ";
+        render_with(&["--visibility", "ignored", "--transport", transport], said);
+    }
+}
+
+/// Every transport that has a choice takes it, and only exact direct light is added to pictures.
+#[test]
+fn transports_are_rendered_or_refused_with_a_reason() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let render = |transport: &str, visibility: &str| {
+        let out = path(&format!("{transport}-{visibility}.exr"));
+        let arguments = ["render", "--scene", "trio", "--method", "reference", "-o", &out];
+        let more = ["--resolution", "16x16", "--set", "samples=16", "--visibility", visibility];
+        let arguments = [&arguments[..], &more, &["--transport", transport]].concat();
+        succeeded(&manylights(&arguments));
+        RadianceImage::read_exr(Path::new(&out)).expect("a picture")
+    };
+    let sum = |image: &RadianceImage| image.pixels.iter().map(|pixel| pixel[1]).sum::<f32>();
+    for transport in ["direct", "indirect-1", "direct+indirect-1"] {
+        let [traced, ignored] = ["traced", "ignored"].map(|choice| render(transport, choice));
+        assert!(sum(&ignored) > sum(&traced), "{transport}");
+    }
+    let parts = ["direct", "indirect-1"].map(|transport| render(transport, "traced"));
+    let whole = render("direct+indirect-1", "traced");
+    for (index, pixel) in whole.pixels.iter().enumerate() {
+        let [direct, indirect] = parts.each_ref().map(|part| part.pixels[index]);
+        assert_eq!(*pixel, [0, 1, 2].map(|channel| indirect[channel] + direct[channel]));
+    }
+    let lamp = path("lamp.toml");
+    let text = "about = \"a lamp\"\nsource = \"builtin:cornell\"\n[material.white]\n\
+                emission = [1.0, 1.0, 1.0]\n";
+    std::fs::write(&lamp, text).expect("writable");
+    let change = ["--scene", lamp.as_str(), "--transport", "direct+indirect-1"];
+    render_with(&change, "this scene has emissive triangles");
 }
 
 #[test]
@@ -207,6 +241,24 @@ fn the_adapter_is_opened_only_where_a_method_needs_it() {
         } else {
             succeeded(&manylights(&arguments));
         }
+    }
+}
+
+#[test]
+fn the_adapter_is_opened_with_the_limits_asked_for() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let out = folder.path().join("out.exr");
+    let out = out.to_str().expect("UTF-8");
+    for (limits, resolution, said) in [
+        ("webgl", "16x16", "MANYLIGHTS_LIMITS=webgl: set it to `default`"),
+        ("default", "8193x1", "under MANYLIGHTS_LIMITS=default allows 8192"),
+    ] {
+        let arguments = ["render", "--scene", "cornell", "--method", "vpl", "-o", out];
+        let arguments = [&arguments[..], &["--resolution", resolution]].concat();
+        let output = manylights_within(limits, &arguments);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{errors}");
+        assert!(errors.lines().count() == 1 && errors.contains(said), "{errors}");
     }
 }
 

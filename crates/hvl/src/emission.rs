@@ -63,7 +63,7 @@ pub fn terms(bands: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 impl EmissionTable {
-    /// Those of [`EmissionTables::shared`].
+    /// The table for a shape and a number of bands, made once in a process: for oracles and tests.
     pub fn of(shape: impl Into<LobeShape>, bands: usize) -> Arc<Self> {
         EmissionTables::shared().get(shape.into(), bands)
     }
@@ -185,9 +185,12 @@ pub fn reflectance(light: &VirtualLight, toward: DVec3, bands: usize) -> DVec3 {
         + DVec3::splat(f64::from(brdf.lobe.f90()) * b)
 }
 
+/// The table that [`module`] reads, of `vec2f`, as it imports it from `package::bindings`.
+pub(crate) const EMISSIONS: &str = "emissions";
+
 /// A module with, for `bands` bands:
-/// - `emission_lobe(y: array<f32, bands (bands + 1)/2>, row: u32) -> vec2f`: A and B of a row of
-///   binding 7 whose first element is `row`;
+/// - `emission_lobe(y: array<f32, bands (bands + 1)/2>, row: u32) -> vec2f`: A and B of the row of
+///   [`EMISSIONS`] whose first element is `row`;
 /// - `emission_grazing(y) -> f32`: (1 − |n·l|)⁵;
 /// - `EMISSION_TABLE`: elements a table.
 pub(crate) fn module(bands: usize) -> String {
@@ -196,7 +199,7 @@ pub(crate) fn module(bands: usize) -> String {
     let table = ANGLES * terms.len();
     let position = |&(l, m): &(usize, usize)| manylights_harmonics::even_index(l, m);
     let lobe = terms.iter().zip(0..).map(|(term, offset): (_, usize)| {
-        format!("y[{}] * emission_table[row + {offset}u]", position(term))
+        format!("y[{}] * {EMISSIONS}[row + {offset}u]", position(term))
     });
     let mirrored = diffuse::mirrored_grazing(bands);
     let grazing = (0..bands)
@@ -205,7 +208,7 @@ pub(crate) fn module(bands: usize) -> String {
     let [lobe, grazing] = [lobe.collect::<Vec<_>>(), grazing.collect()];
     let [lobe, grazing] = [lobe, grazing].map(|sum| sum.join("\n        + "));
     format!(
-        "@group(0) @binding(7) var<storage, read> emission_table: array<vec2f>;\n\n\
+        "import package::bindings::{EMISSIONS};\n\n\
          const EMISSION_TABLE = {table}u;\n\n\
          fn emission_lobe(y: array<f32, {size}>, row: u32) -> vec2f {{\n    return {lobe};\n}}\n\n\
          fn emission_grazing(y: array<f32, {size}>) -> f32 {{\n    return {grazing};\n}}\n"

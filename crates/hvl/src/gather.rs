@@ -2,24 +2,23 @@
 
 use std::cmp::Ordering;
 
-use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Buffer, Center, Error, Gpu, Shadows, link};
+use manylights_gpu::{Buffer, Center, Error, Gpu, PointBindings, Shadows, Table};
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_scene::{Brdf, Lobe, Material, Scene};
-use manylights_virtual_lights::{LightBatches, LightGather, Lights, VirtualSphere};
+use manylights_virtual_lights::{
+    EstimatorShader, GatherShader, LightBatches, LightGather, Lights, PixelsALane, VirtualSphere,
+};
 
-use crate::emission::{self, EmissionTables};
+use crate::emission::{self, EMISSIONS, EmissionTables};
 use crate::light_record::{GlossyLight, LambertLight, rounded_shape};
 use crate::{Horizon, Settings};
-use manylights_reflectance::{Form, LobeShape, RECEIVER, Tables, diffuse, lobe_wgsl};
+use manylights_reflectance::{
+    Form, LOBES, LobeShape, RECEIVER, SHAPES, Tables, diffuse, lobe_wgsl,
+};
 
-/// Spheres a batch, as `shaders/gather.wesl` declares its array.
+/// Spheres a batch.
 pub(crate) const CAPACITY: usize = 512;
-
-/// Lanes, one pixel each: at ten bands a pixel's reflectance fills 55 registers, of colours and
-/// measurements two and three times that.
-const PIXELS_A_GROUP: u32 = 64;
 
 /// The lobes that kernels must know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,11 +35,15 @@ pub struct Lobes {
     pub measured: bool,
 }
 
-/// The WGSL of the kernel for receivers and lights of the given lobes.
+/// The kernel for receivers and lights of the given lobes.
 ///
 /// # Errors
 /// Where the shader does not link.
-pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<String, Error> {
+pub fn linked_shader(
+    lobes: Lobes,
+    traced: bool,
+    settings: &Settings,
+) -> Result<GatherShader, Error> {
     let Settings { bands, emission_bands, damping, .. } = *settings;
     let expanded = emission_bands > 0;
     let sh = wgsl::module(bands, &[Function::CapScales, Function::EvaluateEven]);
@@ -63,19 +66,29 @@ pub fn linked_shader(lobes: Lobes, traced: bool, settings: &Settings) -> Result<
         ("zonal", settings.form == Form::Zonal),
         ("exact_horizon", settings.horizon == Horizon::Exact),
         ("expanded_emission", expanded),
-        ("traced", traced),
         ("exact_fresnel", lobes.exact_fresnel),
         // Kernels read the tables of harmonics alone.
         ("measured", false),
     ];
-    link("gather", include_str!("shaders/gather.wesl"), &modules, &features)
+    EstimatorShader {
+        estimator: include_str!("shaders/estimator.wesl"),
+        modules: &modules,
+        features: &features,
+        traced,
+        capacity: CAPACITY,
+        // At ten bands a pixel's reflectance fills 55 registers, of colours and measurements two and
+        // three times that. Two pixels gained nothing on lavapipe and made 20 bands take minutes to
+        // compile.
+        pixels_a_lane: PixelsALane::One,
+        bindings: PointBindings { settings: &[], tables: table_names(lobes) },
+    }
+    .link()
 }
 
-#[derive(Clone, Copy, Pod, Zeroable)]
-#[repr(C)]
-struct View {
-    camera: Vec3,
-    pixels: u32,
+/// Those of [`Materials::tables`].
+fn table_names(lobes: Lobes) -> Vec<Table> {
+    let tables = [SHAPES, LOBES, EMISSIONS].map(|name| Table { name, element: "vec2f" });
+    if lobes.receivers { tables.to_vec() } else { Vec::new() }
 }
 
 /// What all specular lobes of a picture have.
@@ -145,7 +158,7 @@ impl Materials {
         [false, lights].map(|lights| Lobes { receivers, lights, colored, exact_fresnel, measured })
     }
 
-    /// Their tables among these, on the adapter, as bindings 5 to 7.
+    /// Their tables among these, on the adapter, as [`table_names`] has them.
     pub(crate) fn tables(
         &self,
         gpu: &Gpu,
@@ -203,18 +216,19 @@ pub(crate) fn batches(
     let record = |sphere| GlossyLight::new(sphere, materials.emission_row(sphere, bands));
     let glossy: Vec<_> = glossy.into_iter().map(record).collect();
     gather.batches(
-        &Lights { records: &lambert, centers: &centers[0], capacity: CAPACITY },
-        &Lights { records: &glossy, centers: &centers[1], capacity: CAPACITY },
+        &Lights { records: &lambert, centers: &centers[0] },
+        &Lights { records: &glossy, centers: &centers[1] },
     )
 }
 
-/// For `pixels` surfaces seen from `camera`; without a specular lobe no kernel knows GGX.
+/// For the first `pixels` of `surfaces`, seen from `camera`; without a specular lobe no kernel knows
+/// GGX.
 ///
 /// # Errors
 /// Where a shader does not link or the adapter refuses.
 pub(crate) fn gather(
     gpu: &Gpu,
-    pixels: u32,
+    surfaces: (&Buffer, u32),
     camera: Vec3,
     materials: &Materials,
     tables: Vec<Buffer>,
@@ -223,9 +237,7 @@ pub(crate) fn gather(
 ) -> Result<LightGather, Error> {
     let [lambert, glossy] = materials.lobes(settings);
     let traced = shadows.is_some();
-    let wgsl =
+    let shaders =
         [linked_shader(lambert, traced, settings)?, linked_shader(glossy, traced, settings)?];
-    let wgsl = wgsl.each_ref().map(String::as_str);
-    let view = View { camera, pixels };
-    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, tables, shadows)
+    LightGather::new(gpu, surfaces, camera, shaders, tables, shadows)
 }

@@ -18,8 +18,8 @@
 //! sphere, 1/(π r²) replaces 1/(π d²). Both fade with the radius.
 //!
 //! # Lobes
-//! - Lambertian: a zonal function, n terms; odd bands but l = 1 vanish ([`diffuse`]).
-//! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`]); twice where
+//! - Lambertian: a zonal function, n terms; odd bands but l = 1 vanish ([`diffuse`](manylights_reflectance::diffuse)).
+//! - Specular: m ≥ 0 alone, n(n + 1)/2 terms, tabulated over the view's angle ([`lobes`](manylights_reflectance::lobes)); twice where
 //!   some f0 has a colour. One table serves all materials of one roughness, textured ones included.
 //!   With the exact Fresnel term of a dielectric there is one a roughness and index.
 //! - Measured: a lobe for each channel, in two tables, by quadrature of the measurement's own
@@ -28,7 +28,7 @@
 //! - A window damps the bands of both where it is asked for; it is part of the tables.
 //!
 //! # Zonal form (5.2.7)
-//! The specular lobe is one circular lobe about its own axis ([`zonal`]), n terms. The Lambertian lobe
+//! The specular lobe is one circular lobe about its own axis ([`zonal`](manylights_reflectance::zonal)), n terms. The Lambertian lobe
 //! is no expansion at all: the irradiance of the cap, clipped by the horizon in closed form
 //! ([`horizon::irradiance`]), times the transmission at the sphere's centre; H is for the specular lobe
 //! alone. So a Lambertian surface is exact, whatever the bands. Limit: one circular lobe. What it
@@ -51,7 +51,7 @@
 //!   projected, one band emits half to 23 times of it.
 //! - Φ_j is the flux of the light's cell, not power/count; the emitting cosine is that of the geometric
 //!   normal (see [`manylights_virtual_lights::VirtualLight::flux`]).
-//! - 5.2.7: axis, cosine and Lambertian lobe, see [`zonal`] and above.
+//! - 5.2.7: axis, cosine and Lambertian lobe, see [`zonal`](manylights_reflectance::zonal) and above.
 //! - A pixel whose sum is negative, which no radiance is, is shown as 0.
 
 pub mod emission;
@@ -103,7 +103,8 @@ impl Estimator for Hvl {
         let gpu = on_gpu.gpu();
         let materials = Materials::of_scene(scene);
         let (shadows, tables) = (frame.shadows()?, tables.on_gpu.clone());
-        let gather = gather::gather(gpu, pixels, eye, &materials, tables, &settings, shadows)?;
+        let surfaces = (on_gpu.surfaces(), pixels);
+        let gather = gather::gather(gpu, surfaces, eye, &materials, tables, &settings, shadows)?;
         let products_a_pair = even_count(settings.bands) * materials.channels();
         let products_a_batch = u64::from(pixels) * (CAPACITY * products_a_pair) as u64;
         let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
@@ -155,9 +156,10 @@ pub fn gather(
     let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
     let materials = Materials::new(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
     let tables = materials.tables(gpu, settings, (Tables::shared(), EmissionTables::shared()))?;
-    let pixels = surfaces.len() as u32;
-    let gather = gather::gather(gpu, pixels, camera, &materials, tables, settings, None)?;
+    let on_gpu = gpu.storage("surfaces", surfaces)?;
+    let surfaces = (&on_gpu, surfaces.len() as u32);
+    let gather = gather::gather(gpu, surfaces, camera, &materials, tables, settings, None)?;
     let batches = gather::batches(&gather, lights, &materials, settings)?;
-    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
+    gather.add(&batches, 0..batches.count())?;
     gather.radiance()
 }

@@ -160,7 +160,7 @@ fn traced_shadows() {
     let frame = GpuFrame::new(&GPU, &scene, &scene.cameras[0], [24, 18]).expect("the scene fits");
     let centers: Vec<_> = picture.lights.iter().map(|sphere| Center::from(&sphere.light)).collect();
     let shadows = Shadows::new(&frame, &scene).expect("the hierarchy fits");
-    let hidden = shadows.hidden_lights(&frame, &centers).expect("a pass");
+    let hidden = shadows.hidden_lights(&centers).expect("a pass");
     assert!(hidden.iter().filter(|hidden| **hidden).count() > 1000);
     let peak = picture.image.pixels.as_flattened().iter().copied().fold(0.0, f32::max);
     for (index, (surface, pixel)) in picture.surfaces.iter().zip(&picture.image.pixels).enumerate()

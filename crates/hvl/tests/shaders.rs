@@ -3,7 +3,6 @@
 mod common;
 
 use common::{FORMS, GPU, SETTINGS};
-use manylights_gpu::Binding;
 use manylights_hvl::{Horizon, Lobes, Settings, linked_shader};
 use manylights_reflectance::Form;
 
@@ -21,7 +20,7 @@ fn a_lambertian_scene_links_no_ggx() {
     for form in FORMS {
         for horizon in [Horizon::Smooth, Horizon::Exact] {
             let settings = Settings { form, horizon, emission_bands: 3, ..SETTINGS };
-            let wgsl = linked_shader(LAMBERT, false, &settings).expect("links");
+            let wgsl = linked_shader(LAMBERT, false, &settings).expect("links").wgsl;
             for word in ["shapes", "glossy", "schlick", "specular", "smith", "lobe_dot", "emission"]
             {
                 assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
@@ -30,7 +29,7 @@ fn a_lambertian_scene_links_no_ggx() {
             assert!(!wgsl.contains(other));
             // The Lambertian lobe of the zonal form is in closed form.
             assert_eq!(wgsl.contains("cap_scales"), form == Form::Full);
-            let glossy = linked_shader(GLOSSY, true, &settings).expect("links");
+            let glossy = linked_shader(GLOSSY, true, &settings).expect("links").wgsl;
             assert!(!glossy.contains("relative_fresnel") && !glossy.contains("blue"));
             assert!(glossy.contains("lobe_dot") && glossy.contains("emission_lobe"));
             assert!(glossy.contains("sh_evaluate_even") && glossy.contains("is_visible"));
@@ -40,9 +39,6 @@ fn a_lambertian_scene_links_no_ggx() {
 
 #[test]
 fn every_permutation_is_valid() {
-    let mut bindings =
-        vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
-    bindings.resize(8, Binding::Storage);
     let lobes = [
         LAMBERT,
         Lobes { receivers: true, ..LAMBERT },
@@ -63,8 +59,8 @@ fn every_permutation_is_valid() {
                     continue;
                 }
                 for traced in [false, true] {
-                    let wgsl = linked_shader(lobes, traced, &settings).expect("links");
-                    GPU.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
+                    let shader = linked_shader(lobes, traced, &settings).expect("links");
+                    shader.compile(&GPU).map(|_| ()).expect("valid WGSL");
                 }
             }
         }

@@ -2,10 +2,12 @@
 //!
 //! Radiance through pixel centres, for the transports of
 //! [`Transport`](manylights_scene::Transport): direct light of point-like lights is summed exactly;
-//! emissive triangles and all bounces are sampled.
+//! emissive triangles and all bounces are sampled. [`direct_light`] and
+//! [`seen_emission`] are exact parts on their own.
 
 mod cache;
 mod error;
+mod exact;
 mod method;
 mod picture;
 mod reference;
@@ -13,6 +15,7 @@ mod settings;
 mod sums;
 
 pub use error::Error;
+pub use exact::{direct_light, seen_emission};
 pub use manylights_paths::SLICE;
 pub use method::PathTracer;
 pub use reference::{Reference, render};

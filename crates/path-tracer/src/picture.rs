@@ -49,7 +49,7 @@ impl<'a> Picture<'a> {
         slice_samples: u32,
     ) -> Result<Self, Error> {
         assert!((1..=SLICE).contains(&slice_samples), "a slice is part of one Sobol net");
-        check(transport, resolution)?;
+        check(scene, transport, resolution)?;
         let tracer = Tracer::new(scene, transport);
         let [width, height] = resolution;
         let traced: Vec<_> = (0..width * height)
@@ -159,7 +159,7 @@ impl<'a> Picture<'a> {
     }
 }
 
-fn check(transport: Transport, [width, height]: [u32; 2]) -> Result<(), Error> {
+fn check(scene: &Scene, transport: Transport, [width, height]: [u32; 2]) -> Result<(), Error> {
     let sides = 1..=MAX_SIDE;
     let pixels = u64::from(width) * u64::from(height);
     if !sides.contains(&width) || !sides.contains(&height) || pixels > MAX_PIXELS {
@@ -175,6 +175,12 @@ fn check(transport: Transport, [width, height]: [u32; 2]) -> Result<(), Error> {
         Transport::Indirect { bounces: 2.., visibility: Visibility::Ignored } => {
             Err(Error::Settings(format!(
                 "transport {transport} with ignored visibility: only indirect-1 can ignore it"
+            )))
+        }
+        Transport::DirectAndIndirect { .. } if scene.emissive_triangles().next().is_some() => {
+            Err(Error::Settings(format!(
+                "transport {transport} holds the exact direct light of point-like lights, and this \
+                 scene has emissive triangles: use direct, indirect-1 or all"
             )))
         }
         _ => Ok(()),

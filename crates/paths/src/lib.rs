@@ -5,6 +5,7 @@
 
 mod beams;
 mod emitters;
+mod illumination;
 mod lobe;
 mod sampler;
 mod tracer;

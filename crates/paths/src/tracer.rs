@@ -2,13 +2,13 @@
 
 use glam::Vec3;
 use manylights_scene::bvh::{Bvh, Hit, Ray};
-use manylights_scene::light::Illumination;
 use manylights_scene::{Light, Scene, SurfacePoint};
 use manylights_scene::{Transport, Visibility};
 
 use crate::beams::Beams;
 use crate::emitters::Emitters;
-use crate::lobe::Lobes;
+use crate::illumination::{Lit, area_density, beam_weight, may_arrive, reflected};
+use crate::lobe::{Lobes, Scatter};
 use crate::sampler::Sampler;
 
 /// Bounces after which Russian roulette may end a path.
@@ -29,9 +29,14 @@ pub struct Tracer<'a> {
     bvh: Bvh,
     emitters: Emitters,
     beams: Option<Beams<'a>>,
-    /// Direct illumination counts at these vertices of a path; the primary hit is vertex 0.
+    /// Whether the camera sees emission.
+    emission: bool,
+    /// Of the direct light of point-like lights at the primary hit, where it counts.
+    exact: Option<Visibility>,
+    /// Illumination counts at these vertices of a sampled path; the primary hit is vertex 0.
     first: u32,
     last: u32,
+    /// Of the last segment of a sampled path.
     visibility: Visibility,
 }
 
@@ -43,26 +48,23 @@ pub struct Walk<'a> {
     pub rays: u64,
 }
 
-/// Direct illumination by one point-like light.
-struct Lit {
-    light: usize,
-    at: Illumination,
-    radiance: Vec3,
-}
-
 impl<'a> Tracer<'a> {
     /// Builds what rays are cast against.
     pub fn new(scene: &'a Scene, transport: Transport) -> Self {
-        let (first, last, visibility) = match transport {
-            Transport::Direct => (0, 0, Visibility::Traced),
-            Transport::Indirect { bounces, visibility } => (1, bounces, visibility),
-            Transport::All => (0, u32::MAX, Visibility::Traced),
+        let traced = Visibility::Traced;
+        let (exact, first, last, visibility) = match transport {
+            Transport::Direct { visibility } => (Some(visibility), 0, 0, visibility),
+            Transport::Indirect { bounces, visibility } => (None, 1, bounces, visibility),
+            Transport::DirectAndIndirect { visibility } => (Some(traced), 1, 1, visibility),
+            Transport::All => (Some(traced), 0, u32::MAX, traced),
         };
         Self {
             scene,
             bvh: Bvh::build(scene),
             emitters: Emitters::new(scene),
             beams: if last > 0 { Beams::new(scene) } else { None },
+            emission: transport == Transport::All,
+            exact,
             first,
             last,
             visibility,
@@ -85,6 +87,22 @@ impl<'a> Tracer<'a> {
         self.scene.surface(hit.triangle, hit.u, hit.v, direction).facing(-direction)
     }
 
+    /// Whether directions that are drawn from a surface look for emitters, beside points drawn on
+    /// these.
+    fn searches(&self, point: &SurfacePoint) -> bool {
+        point.brdf.has_specular() || !self.emitters.are_far(point.position)
+    }
+
+    /// Weight of the emission at a point that a direction found: the balance heuristic. Zero where
+    /// nothing is emitted.
+    fn found(&self, scatter: &Scatter, from: &SurfacePoint, next: &SurfacePoint) -> f32 {
+        if next.emission == Vec3::ZERO {
+            return 0.0;
+        }
+        let density = area_density(scatter.density, from, next);
+        density / (density + self.emitters.density(next))
+    }
+
     /// A walk over these sample points.
     pub fn walk(&'a self, sampler: Sampler) -> Walk<'a> {
         Walk { tracer: self, sampler, rays: 0 }
@@ -92,13 +110,13 @@ impl<'a> Tracer<'a> {
 }
 
 impl Walk<'_> {
-    /// The part of the radiance that needs no sampling: emission and point-like lights seen directly.
+    /// The part of the radiance that needs no sampling: emission that the camera sees, and the direct
+    /// light of point-like lights.
     pub fn exact(&mut self, point: &SurfacePoint, to_viewer: Vec3) -> Vec3 {
-        if self.tracer.first > 0 {
-            return Vec3::ZERO;
+        let mut radiance = if self.tracer.emission { point.emission } else { Vec3::ZERO };
+        if let Some(visibility) = self.tracer.exact {
+            self.lit(point, to_viewer, visibility, |lit| radiance += lit.radiance);
         }
-        let mut radiance = point.emission;
-        self.lit(point, to_viewer, |lit| radiance += lit.radiance);
         radiance
     }
 
@@ -108,9 +126,10 @@ impl Walk<'_> {
             Some(beams) => self.beam(beams, point, to_viewer, index),
             None => Vec3::ZERO,
         };
-        let path = match self.tracer.visibility {
-            Visibility::Traced => self.path(*point, to_viewer, index),
-            Visibility::Ignored => self.through(point, to_viewer, index),
+        let path = match (self.tracer.visibility, self.tracer.last) {
+            (Visibility::Traced, _) => self.path(*point, to_viewer, index),
+            (Visibility::Ignored, 0) => self.unhidden(point, to_viewer, index),
+            (Visibility::Ignored, _) => self.through(point, to_viewer, index),
         };
         path + beam
     }
@@ -129,11 +148,10 @@ impl Walk<'_> {
         for depth in 0..=tracer.last {
             let lobes = Lobes::new(&point, to_viewer);
             let counts = emitters && depth >= tracer.first;
-            // Whether the next ray of the path looks for emitters, too.
-            let searches =
-                counts && (point.brdf.has_specular() || !tracer.emitters.are_far(point.position));
+            let searches = counts && tracer.searches(&point);
             if counts {
-                radiance += throughput * self.emitter(&lobes, &point, emitter_numbers, searches);
+                radiance += throughput
+                    * self.emitter(&lobes, &point, Visibility::Traced, emitter_numbers, searches);
             }
             if depth == tracer.last && !searches {
                 break;
@@ -148,17 +166,15 @@ impl Walk<'_> {
                 break;
             }
             let Some(next) = self.next(&point, scatter.direction) else { break };
-            if searches && next.emission != Vec3::ZERO {
-                let density = area_density(scatter.density, &point, &next);
-                let weight = density / (density + tracer.emitters.density(&next));
-                radiance += throughput * weight * next.emission;
+            if searches {
+                radiance += throughput * tracer.found(&scatter, &point, &next) * next.emission;
             }
             if depth == tracer.last {
                 break;
             }
             let beams = if depth == 0 { tracer.beams.as_ref() } else { None };
             let density = area_density(scatter.density, &point, &next);
-            self.lit(&next, -scatter.direction, |lit| {
+            self.lit(&next, -scatter.direction, Visibility::Traced, |lit| {
                 radiance += throughput * lit.radiance * beam_weight(beams, density, &next, &lit);
             });
             (point, to_viewer, emitter_numbers) = (next, -scatter.direction, next_numbers);
@@ -177,15 +193,37 @@ impl Walk<'_> {
         tracer.bvh.all_hits(&ray, |hit| {
             let next = tracer.scene.surface(hit.triangle, hit.u, hit.v, scatter.direction);
             let density = area_density(scatter.density, point, &next);
-            self.lit(&next, -scatter.direction, |lit| {
+            self.lit(&next, -scatter.direction, Visibility::Traced, |lit| {
                 radiance += lit.radiance * beam_weight(tracer.beams.as_ref(), density, &next, &lit);
             });
             if !tracer.emitters.is_empty() {
                 let lobes = Lobes::new(&next, -scatter.direction);
-                radiance += self.emitter(&lobes, &next, next_numbers, false);
+                radiance += self.emitter(&lobes, &next, Visibility::Traced, next_numbers, false);
             }
         });
         scatter.weight * radiance
+    }
+
+    /// Direct illumination by emissive triangles that nothing hides, other emissive triangles
+    /// included.
+    fn unhidden(&mut self, point: &SurfacePoint, to_viewer: Vec3, index: u32) -> Vec3 {
+        let tracer = self.tracer;
+        if tracer.emitters.is_empty() {
+            return Vec3::ZERO;
+        }
+        let lobes = Lobes::new(point, to_viewer);
+        let searches = tracer.searches(point);
+        let numbers = self.sampler.group(GROUP_EMITTER, index);
+        let mut radiance = self.emitter(&lobes, point, Visibility::Ignored, numbers, searches);
+        let (numbers, _) = self.bounce_numbers(0, index);
+        let Some(scatter) = lobes.sample(numbers).filter(|_| searches) else { return radiance };
+        let ray = Ray::new(self.origin(point, scatter.direction), scatter.direction);
+        self.rays += 1;
+        tracer.bvh.all_hits(&ray, |hit| {
+            let next = tracer.scene.surface(hit.triangle, hit.u, hit.v, scatter.direction);
+            radiance += scatter.weight * tracer.found(&scatter, point, &next) * next.emission;
+        });
+        radiance
     }
 
     /// A path of one bounce that starts at a light.
@@ -214,6 +252,9 @@ impl Walk<'_> {
         }
         let at = tracer.scene.lights[light].illuminate(next.position);
         let lobes = Lobes::new(point, to_viewer);
+        if !may_arrive(&next, at.to_light, Visibility::Traced) {
+            return Vec3::ZERO;
+        }
         let radiance = reflected(&next, -to_next, &at) * lobes.reflect(to_next);
         if radiance == Vec3::ZERO || !self.connected(point, &next) {
             return Vec3::ZERO;
@@ -225,10 +266,11 @@ impl Walk<'_> {
 
     /// Whether the segment of a path that starts at a light may carry light to `point`.
     fn connected(&mut self, point: &SurfacePoint, next: &SurfacePoint) -> bool {
-        if self.tracer.visibility == Visibility::Ignored {
+        let visibility = self.tracer.visibility;
+        if visibility == Visibility::Ignored {
             return true;
         }
-        if point.geometric_normal.dot(next.position - point.position) <= 0.0 {
+        if !may_arrive(point, next.position - point.position, visibility) {
             return false;
         }
         self.rays += 1;
@@ -243,6 +285,7 @@ impl Walk<'_> {
         &mut self,
         lobes: &Lobes<'_>,
         point: &SurfacePoint,
+        visibility: Visibility,
         numbers: [f32; 2],
         shared: bool,
     ) -> Vec3 {
@@ -255,7 +298,7 @@ impl Walk<'_> {
         }
         let direction = offset / distance2.sqrt();
         let cos_emitter = -emitter.normal.dot(direction);
-        if cos_emitter <= 0.0 || point.geometric_normal.dot(direction) <= 0.0 {
+        if cos_emitter <= 0.0 || !may_arrive(point, direction, visibility) {
             return Vec3::ZERO;
         }
         let reflected = lobes.reflect(direction);
@@ -263,7 +306,9 @@ impl Walk<'_> {
             return Vec3::ZERO;
         }
         let target = self.tracer.bvh.shifted(emitter.position, emitter.normal);
-        if self.occluded(&Ray::between(self.origin(point, direction), target)) {
+        if visibility == Visibility::Traced
+            && self.occluded(&Ray::between(self.origin(point, direction), target))
+        {
             return Vec3::ZERO;
         }
         let geometry = cos_emitter / distance2;
@@ -273,11 +318,24 @@ impl Walk<'_> {
     }
 
     /// Calls `visit` for each point-like light that illuminates `point`.
-    fn lit(&mut self, point: &SurfacePoint, to_viewer: Vec3, mut visit: impl FnMut(Lit)) {
+    fn lit(
+        &mut self,
+        point: &SurfacePoint,
+        to_viewer: Vec3,
+        visibility: Visibility,
+        mut visit: impl FnMut(Lit),
+    ) {
         for (light, source) in self.tracer.scene.lights.iter().enumerate() {
             let at = source.illuminate(point.position);
+            if !may_arrive(point, at.to_light, visibility) {
+                continue;
+            }
             let radiance = reflected(point, to_viewer, &at);
             if radiance == Vec3::ZERO {
+                continue;
+            }
+            if visibility == Visibility::Ignored {
+                visit(Lit { light, at, radiance });
                 continue;
             }
             let origin = self.origin(point, at.to_light);
@@ -332,30 +390,5 @@ impl Walk<'_> {
     fn origin(&self, point: &SurfacePoint, direction: Vec3) -> Vec3 {
         let side = point.geometric_normal.dot(direction).signum();
         self.tracer.bvh.shifted(point.position, side * point.geometric_normal)
-    }
-}
-
-/// Radiance towards `to_viewer` of a point that a light illuminates; zero where the light is behind
-/// either normal.
-fn reflected(point: &SurfacePoint, to_viewer: Vec3, at: &Illumination) -> Vec3 {
-    let cos = point.normal.dot(at.to_light);
-    if cos <= 0.0 || point.geometric_normal.dot(at.to_light) <= 0.0 || at.irradiance == Vec3::ZERO {
-        return Vec3::ZERO;
-    }
-    point.brdf.eval(point.normal, to_viewer, at.to_light) * at.irradiance * cos
-}
-
-/// A density over solid angle at `from` as one over area at `to`, m⁻².
-fn area_density(density: f32, from: &SurfacePoint, to: &SurfacePoint) -> f32 {
-    let offset = to.position - from.position;
-    let distance2 = offset.length_squared();
-    density * to.geometric_normal.dot(offset).abs() / (distance2 * distance2.sqrt())
-}
-
-/// Weight of a camera path of area density `density` against the path from the light.
-fn beam_weight(beams: Option<&Beams<'_>>, density: f32, point: &SurfacePoint, lit: &Lit) -> f32 {
-    match beams {
-        Some(beams) => density / (density + beams.density(lit.light, point, &lit.at)),
-        None => 1.0,
     }
 }

@@ -17,8 +17,12 @@ pub use cache::Cache;
 pub use expansion::{Damping, Form};
 pub use lobe_quadrature::{Fixed, LobeQuadrature};
 pub use lobe_shape::LobeShape;
+pub use lobe_wgsl::LOBES;
 pub use tables::Tables;
 
+/// The table of shapes that [`RECEIVER`] reads, of `vec2f`, as it imports it from `package::bindings`.
+pub const SHAPES: &str = "shapes";
+
 /// The WESL module `receiver`: a pixel's reflectance as gathers keep it. It imports the modules that
-/// [`lobe_wgsl::module`] and [`diffuse::module`] make.
+/// [`lobe_wgsl::module`] and [`diffuse::module`] make, and the tables [`SHAPES`] and [`LOBES`].
 pub const RECEIVER: (&str, &str) = ("receiver", include_str!("shaders/receiver.wesl"));

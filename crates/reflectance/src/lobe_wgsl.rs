@@ -6,8 +6,11 @@ use manylights_harmonics::{even_count, even_index};
 use crate::expansion::Form;
 use crate::lobes::ANGLES;
 
+/// The table that [`module`] reads, of `vec2f`, as it imports it from `package::bindings`.
+pub const LOBES: &str = "lobes";
+
 /// A module with, for `N` = n (n + 1)/2 coefficients a lobe of n bands, or n of the zonal form,
-/// - `LOBE_SIZE`: N; `LOBE_ROW` and `LOBE_TABLE`: elements a row and a table of binding 6;
+/// - `LOBE_SIZE`: N; `LOBE_ROW` and `LOBE_TABLE`: elements a row and a table of [`LOBES`];
 /// - `lobe_mixed(first: u32, fraction: f32, share: vec2f) -> array<f32, N>`: of the row at `first` and
 ///   the next, the first of each pair times share.x plus the second times share.y;
 /// - `lobe_dot(y: array<f32, N>, scales: array<f32, n>, lobe: array<f32, N>) -> f32`: the double
@@ -30,10 +33,10 @@ pub fn module(bands: usize, form: Form) -> String {
     };
     let bands_sum: Vec<_> = (0..bands).map(band).collect();
     format!(
-        "@group(0) @binding(6) var<storage, read> lobes: array<vec2f>;\n\n\
+        "import package::bindings::{LOBES};\n\n\
          const LOBE_SIZE = {size}u;\nconst LOBE_ROW = {}u;\nconst LOBE_TABLE = {}u;\n\n\
          fn lobe_pair(index: u32, fraction: f32) -> vec2f {{\n    \
-         return mix(lobes[index], lobes[index + LOBE_ROW], fraction);\n}}\n\n\
+         return mix({LOBES}[index], {LOBES}[index + LOBE_ROW], fraction);\n}}\n\n\
          fn lobe_mixed(first: u32, fraction: f32, share: vec2f) -> array<f32, {size}> {{\n    \
          return array<f32, {size}>(\n        {},\n    );\n}}\n\n\
          fn lobe_dot(\n    y: array<f32, {size}>,\n    scales: array<f32, {bands}>,\n    \

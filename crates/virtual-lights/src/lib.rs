@@ -3,6 +3,7 @@
 //!
 //! [`VirtualLights`] makes a [`Method`](manylights_method::Method) of an [`Estimator`].
 
+mod gather_shader;
 mod light_gather;
 mod lit_texels;
 mod many_lights;
@@ -12,6 +13,7 @@ mod solid_angle;
 mod virtual_light;
 mod virtual_sphere;
 
+pub use gather_shader::{EstimatorShader, GatherShader, PixelsALane};
 pub use light_gather::{LightBatches, LightGather, Lights};
 pub use lit_texels::{LIT_TEXEL, LitTexel, LitTexels, lit_texels};
 pub use many_lights::{

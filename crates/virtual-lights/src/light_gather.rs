@@ -1,116 +1,105 @@
 //! The gather that many-light methods share: batches of lights over all pixels, in compute passes.
 //!
-//! What a light contributes to a pixel is the method's kernel; how lights lie in memory, how work is
+//! What a light contributes to a pixel is the estimator's module; how lights lie in memory, how work is
 //! cut, which lights a pixel sees and how sums are read back is the same for all.
 
 use std::ops::Range;
 use std::sync::Arc;
 
-use bytemuck::Pod;
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
 use manylights_gpu::{
-    Binding, Buffer, Center, Dispatch, Error, Gpu, Kernel, PassTime, Resource, Shadows,
-    UniformBatches, workgroups,
+    Buffer, Center, Dispatch, Error, Gpu, Kernel, Pass, PassTime, PointPass, Shadows,
+    UniformBatches,
 };
+
+use crate::gather_shader::GatherShader;
 
 /// Lights of one kind, in order.
 pub struct Lights<'a, T> {
-    /// As the method's kernel reads them.
+    /// As the estimator's `Light` reads them.
     pub records: &'a [T],
     /// Of each; read where shadows are traced.
     pub centers: &'a [Center],
-    /// Of the array that the kernel declares.
-    pub capacity: usize,
 }
 
-/// Virtual lights in uniform memory, those on Lambertian surfaces first.
-pub struct LightBatches {
-    lambert: Batches,
-    glossy: Batches,
-}
+/// Virtual lights in uniform memory, bound to their kernels; those on Lambertian surfaces first, and
+/// no kind that has none.
+pub struct LightBatches(Vec<Batches>);
 
 struct Batches {
-    records: UniformBatches,
-    /// In the same batches.
-    centers: Option<UniformBatches>,
-}
-
-impl Batches {
-    fn new<T: Pod>(
-        gpu: &Gpu,
-        label: &str,
-        lights: &Lights<'_, T>,
-        shadows: Option<&Shadows>,
-    ) -> Result<Self, Error> {
-        let Lights { records, centers, capacity } = *lights;
-        let most = shadows.map_or(capacity, |shadows| shadows.lights_a_batch().min(capacity));
-        let centers = shadows.map(|_| {
-            UniformBatches::new(gpu, "centres of lights", centers, Shadows::CAPACITY, most)
-        });
-        Ok(Self {
-            records: UniformBatches::new(gpu, label, records, capacity, most)?,
-            centers: centers.transpose()?,
-        })
-    }
+    counts: Vec<u32>,
+    gather: Pass,
+    workgroups: [u32; 3],
+    shadow: Option<Pass>,
 }
 
 impl LightBatches {
     /// Batches in all.
     pub fn count(&self) -> usize {
-        self.lambert.records.counts().len() + self.glossy.records.counts().len()
+        self.0.iter().map(|batches| batches.counts.len()).sum()
     }
 
     /// Lights in a range of batches.
     pub fn lights(&self, range: Range<usize>) -> u64 {
-        let counts = self.lambert.records.counts().iter().chain(self.glossy.records.counts());
+        let counts = self.0.iter().flat_map(|batches| &batches.counts);
         counts.skip(range.start).take(range.len()).map(|&count| u64::from(count)).sum()
     }
+
+    /// Each batch: its kind and its place among those of the kind.
+    fn places(&self) -> impl Iterator<Item = (&Batches, usize)> {
+        self.0.iter().flat_map(|batches| (0..batches.counts.len()).map(move |i| (batches, i)))
+    }
+}
+
+/// As `shaders/gather.wesl` has it.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct View {
+    camera: Vec3,
+    pixels: u32,
 }
 
 /// The pipelines for one scene and the sums so far.
 pub struct LightGather {
     gpu: Gpu,
-    view: Buffer,
-    radiance: Buffer,
-    tables: Vec<Buffer>,
+    pixels: PointPass,
     shadows: Option<Shadows>,
-    pixels: u32,
-    pixels_a_group: u32,
-    from_lambert: Arc<Kernel>,
-    /// For lights on glossy surfaces; the Lambertian kernel again where the scene has none.
-    from_glossy: Arc<Kernel>,
+    /// For lights on Lambertian and on glossy surfaces; the same where the scene has no specular lobe.
+    kernels: [GatherKernel; 2],
+}
+
+struct GatherKernel {
+    kernel: Arc<Kernel>,
+    capacity: usize,
+    workgroups: [u32; 3],
 }
 
 impl LightGather {
-    /// For `pixels` surfaces, `pixels_a_group` a workgroup. `view` is what the kernels are told beside
-    /// surfaces and lights; `wgsl` are those for lights on Lambertian and on glossy surfaces, with the
-    /// bindings 0 view, 1 surfaces, 2 batch of lights, 3 radiance, 4 hidden lights (see
-    /// `shaders/visible.wesl`; read only where there are `shadows`), 5 … `tables`, in storage.
+    /// For the first `pixels` of `surfaces`, seen from `camera`. `shaders` are those for lights on
+    /// Lambertian and on glossy surfaces; `own` are the estimator's settings, where it has some, and its
+    /// tables, in the order of its [`PointBindings`](manylights_gpu::PointBindings).
     ///
     /// # Errors
     /// Where the adapter refuses a kernel or a buffer.
     pub fn new(
         gpu: &Gpu,
-        [pixels, pixels_a_group]: [u32; 2],
-        view: &impl Pod,
-        [lambert, glossy]: [&str; 2],
-        tables: Vec<Buffer>,
+        (surfaces, pixels): (&Buffer, u32),
+        camera: Vec3,
+        shaders: [GatherShader; 2],
+        own: Vec<Buffer>,
         shadows: Option<Shadows>,
     ) -> Result<Self, Error> {
-        let mut bindings =
-            vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
-        bindings.resize(5 + tables.len(), Binding::Storage);
-        let kernel = |wgsl| gpu.kernel("gather", wgsl, &bindings);
-        Ok(Self {
-            gpu: gpu.clone(),
-            view: gpu.uniform("view", view)?,
-            radiance: gpu.zeroed("radiance", u64::from(pixels) * 16)?,
-            from_lambert: kernel(lambert)?,
-            from_glossy: kernel(glossy)?,
-            tables,
-            shadows,
-            pixels,
-            pixels_a_group,
-        })
+        let (hidden, view) = (shadows.as_ref().map(Shadows::hidden), View { camera, pixels });
+        let pixels = PointPass::new(gpu, "gather", (surfaces, pixels), 16, &view, hidden, own)?;
+        let kernel = |shader: &GatherShader| {
+            let workgroups = pixels.workgroups(shader.pixels_a_group);
+            let kernel = shader.compile(gpu)?;
+            Ok::<_, Error>(GatherKernel { kernel, capacity: shader.capacity, workgroups })
+        };
+        let [lambert, glossy] = &shaders;
+        let kernels = [kernel(lambert)?, kernel(glossy)?];
+        Ok(Self { gpu: gpu.clone(), pixels, shadows, kernels })
     }
 
     /// Most batches of a submission that casts shadow rays.
@@ -127,59 +116,53 @@ impl LightGather {
         lambert: &Lights<'_, L>,
         glossy: &Lights<'_, G>,
     ) -> Result<LightBatches, Error> {
-        let shadows = self.shadows.as_ref();
-        Ok(LightBatches {
-            lambert: Batches::new(&self.gpu, "lambert lights", lambert, shadows)?,
-            glossy: Batches::new(&self.gpu, "glossy lights", glossy, shadows)?,
-        })
+        let [from_lambert, from_glossy] = &self.kernels;
+        let lambert = self.of_kind("lambert lights", lambert, from_lambert)?;
+        let glossy = self.of_kind("glossy lights", glossy, from_glossy)?;
+        Ok(LightBatches(lambert.into_iter().chain(glossy).collect()))
+    }
+
+    fn of_kind<T: Pod>(
+        &self,
+        label: &str,
+        lights: &Lights<'_, T>,
+        kernel: &GatherKernel,
+    ) -> Result<Option<Batches>, Error> {
+        if lights.records.is_empty() {
+            return Ok(None);
+        }
+        let GatherKernel { ref kernel, capacity, workgroups } = *kernel;
+        let bits = self.shadows.as_ref().map_or(capacity, Shadows::lights_a_batch);
+        let most = capacity.min(bits);
+        let records = UniformBatches::new(&self.gpu, label, lights.records, capacity, most)?;
+        let shadow = |shadows: &Shadows| {
+            let (label, capacity) = ("centres of lights", Shadows::CAPACITY);
+            shadows.pass(&UniformBatches::new(&self.gpu, label, lights.centers, capacity, most)?)
+        };
+        Ok(Some(Batches {
+            counts: records.counts().to_vec(),
+            gather: self.pixels.bind(kernel, &records)?,
+            workgroups,
+            shadow: self.shadows.as_ref().map(shadow).transpose()?,
+        }))
     }
 
     /// Adds a range of batches to all pixels and waits.
     ///
     /// # Errors
     /// Where the device gave up.
-    pub fn add(
-        &self,
-        surfaces: &Buffer,
-        batches: &LightBatches,
-        range: Range<usize>,
-    ) -> Result<Vec<PassTime>, Error> {
-        let lambert = batches.lambert.records.counts().len();
-        let chosen: Vec<_> = range
-            .filter(|&index| batches.lights(index..index + 1) > 0)
-            .map(|index| match index.checked_sub(lambert) {
-                None => (&self.from_lambert, &batches.lambert, index),
-                Some(index) => (&self.from_glossy, &batches.glossy, index),
-            })
-            .map(|(kernel, batches, index)| {
-                let shadows = self.shadows.as_ref().zip(batches.centers.as_ref());
-                let shadows = shadows.map(|(shadows, centers)| {
-                    (shadows, shadows.resources(surfaces, Resource::Batch(centers, index)))
-                });
-                (
-                    shadows,
-                    kernel,
-                    self.resources(surfaces, Resource::Batch(&batches.records, index)),
-                )
-            })
-            .collect();
+    pub fn add(&self, batches: &LightBatches, range: Range<usize>) -> Result<Vec<PassTime>, Error> {
         let mut dispatches = Vec::new();
-        for (shadows, kernel, resources) in &chosen {
-            dispatches.extend(shadows.as_ref().map(|(shadows, bound)| shadows.dispatch(bound)));
-            let workgroups = workgroups(self.pixels, self.pixels_a_group);
-            dispatches.push(Dispatch { pass: "gather", kernel, resources, workgroups });
+        for (batches, index) in batches.places().skip(range.start).take(range.len()) {
+            dispatches.extend(self.shadow(batches, index));
+            dispatches.push(batches.gather.over_batch(index, batches.workgroups));
         }
         self.gpu.run(&dispatches)
     }
 
-    fn resources<'a>(&'a self, surfaces: &'a Buffer, batch: Resource<'a>) -> Vec<Resource<'a>> {
-        // Where nothing reads which lights are hidden, any buffer will do.
-        let hidden = self.shadows.as_ref().map_or(surfaces, Shadows::hidden);
-        let [view, surfaces, radiance, hidden] =
-            [&self.view, surfaces, &self.radiance, hidden].map(Resource::Buffer);
-        let mut resources = vec![view, surfaces, batch, radiance, hidden];
-        resources.extend(self.tables.iter().map(Resource::Buffer));
-        resources
+    fn shadow<'a>(&self, batches: &'a Batches, index: usize) -> Option<Dispatch<'a>> {
+        let (shadows, pass) = self.shadows.as_ref().zip(batches.shadow.as_ref())?;
+        Some(shadows.dispatch(pass, index))
     }
 
     /// The sums so far, W·m⁻²·sr⁻¹, in the order of the surfaces.
@@ -187,7 +170,7 @@ impl LightGather {
     /// # Errors
     /// Where the device gave up.
     pub fn radiance(&self) -> Result<Vec<[f32; 3]>, Error> {
-        let pixels: Vec<[f32; 4]> = self.gpu.read(&self.radiance)?;
+        let pixels: Vec<[f32; 4]> = self.pixels.results()?;
         Ok(pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect())
     }
 }

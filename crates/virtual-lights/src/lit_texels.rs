@@ -3,9 +3,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{
-    Binding, Buffer, Dispatch, Error, GpuFrame, Module, PassTime, Resource, link,
-};
+use manylights_gpu::{Binding, Buffer, Error, GpuFrame, Module, PassTime, Resource, link};
 use manylights_scene::Light;
 
 use crate::rsm::Map;
@@ -69,12 +67,8 @@ pub fn lit_texels(frame: &GpuFrame, map: &Map) -> Result<(LitTexels, Vec<PassTim
     let kernel = gpu.kernel("lit texels", &wgsl, &bindings)?;
     let (vertices, triangles) = (frame.vertices(), frame.triangles());
     let buffers = [&projection, &light, vertices, triangles, &surfaces, &texels];
-    times.extend(gpu.run(&[Dispatch {
-        pass: "light texels",
-        kernel: &kernel,
-        resources: &buffers.map(Resource::Buffer),
-        workgroups: [width.div_ceil(64), height, 1],
-    }])?);
+    let pass = gpu.pass("light texels", &kernel, &buffers.map(Resource::Buffer))?;
+    times.extend(gpu.run(&[pass.over([width.div_ceil(64), height, 1])])?);
     // To a method they are one pass.
     let times = times.into_iter().map(|time| PassTime { pass: "distribute", ..time }).collect();
     Ok((LitTexels { surfaces, texels }, times))

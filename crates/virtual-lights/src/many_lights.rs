@@ -1,5 +1,7 @@
 //! What methods that gather virtual lights have in common, but for the estimator.
 
+use std::time::Instant;
+
 use glam::Vec3;
 use manylights_gpu::{GpuFrame, Shadows};
 use manylights_method::{
@@ -174,7 +176,9 @@ impl<'a> ManyLightFrame<'a> {
         let declined = |reason: &str| Err(Error::Declined(reason.to_owned()));
         let Frame { scene, camera, transport, seed, gpu, .. } = *frame;
         let Transport::Indirect { bounces: 1, visibility } = transport else {
-            return declined("computes one indirect bounce: use --transport indirect-1");
+            return declined(
+                "computes one indirect bounce: use --transport indirect-1 or direct+indirect-1",
+            );
         };
         if scene.emissive_triangles().next().is_some() {
             return declined("needs point-like primary lights; this scene has emissive triangles");
@@ -237,9 +241,18 @@ impl<'a> ManyLightRun<'a> {
         }
     }
 
-    /// Adds up the times of passes of one name.
-    fn add_times(&mut self, times: &[manylights_gpu::PassTime]) {
-        for &manylights_gpu::PassTime { pass, seconds } in times {
+    /// Adds up the times of passes of one name. What `since` then took beyond them is named as a pass of
+    /// the host, so that passes leave nothing out.
+    fn add_times(
+        &mut self,
+        times: &[manylights_gpu::PassTime],
+        host: &'static str,
+        since: Instant,
+    ) {
+        let passes: f64 = times.iter().map(|time| time.seconds).sum();
+        let seconds = (since.elapsed().as_secs_f64() - passes).max(0.0);
+        let host = manylights_gpu::PassTime { pass: host, seconds };
+        for &manylights_gpu::PassTime { pass, seconds } in times.iter().chain([&host]) {
             match self.times.iter_mut().find(|time| time.pass == pass) {
                 Some(time) => time.seconds += seconds,
                 None => self.times.push(PassTime { pass, seconds }),
@@ -250,17 +263,21 @@ impl<'a> ManyLightRun<'a> {
 
 impl Run for ManyLightRun<'_> {
     fn step(&mut self) -> Result<Progress, Error> {
+        let start = Instant::now();
         let batches = match self.placed.take() {
             Some(batches) => batches,
             None => {
                 let (batches, times) = (self.place)(&self.gather)?;
-                self.add_times(&times);
+                // Maps read back, lights made of them and uploaded.
+                self.add_times(&times, "place", start);
                 batches
             }
         };
+        let start = Instant::now();
         let end = (self.next + self.batches_a_step).min(batches.count());
-        let times = self.gather.add(self.frame.surfaces(), &batches, self.next..end)?;
-        self.add_times(&times);
+        let times = self.gather.add(&batches, self.next..end)?;
+        // Passes encoded, submitted and waited for.
+        self.add_times(&times, "submit", start);
         self.next = end;
         let [done, total] = [end, batches.count()].map(|end| batches.lights(0..end));
         self.placed = Some(batches);

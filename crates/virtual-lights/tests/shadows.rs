@@ -13,7 +13,7 @@ fn disagreement(scene: &Scene, resolution: [u32; 2], lights: u64) -> f64 {
     let (lights, _) = distribute(&frame, scene, lights, 1).expect("lights");
     let centers: Vec<_> = lights.iter().map(Center::from).collect();
     let shadows = Shadows::new(&frame, scene).expect("the hierarchy fits");
-    let hidden = shadows.hidden_lights(&frame, &centers).expect("a pass");
+    let hidden = shadows.hidden_lights(&centers).expect("a pass");
     let surfaces: Vec<SurfaceRecord> = gpu.read(frame.surfaces()).expect("a G-buffer");
     assert_eq!(hidden.len(), surfaces.len() * lights.len());
     let bvh = Bvh::build(scene);

@@ -2,20 +2,19 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Center, Error, Gpu, Reflectances, Shadows, link};
-use manylights_virtual_lights::{LightBatches, LightGather, Lights, VirtualLight};
+use manylights_gpu::{Buffer, Center, Error, Gpu, PointBindings, Reflectances, Shadows};
+use manylights_virtual_lights::{
+    EstimatorShader, GatherShader, LightBatches, LightGather, Lights, PixelsALane, VirtualLight,
+};
 
 use crate::Settings;
 use crate::light_record::{GlossyLight, LambertLight};
 
-/// Lights a batch, as `shaders/gather.wesl` declares its arrays: below 64 KiB each.
+/// Lights a batch: below 64 KiB each.
 pub(crate) const LAMBERT_CAPACITY: usize = 1024;
 const GLOSSY_CAPACITY: usize = 480;
 
-/// 64 lanes of four pixels.
-const PIXELS_A_GROUP: u32 = 256;
-
-/// The WGSL of the kernel for receivers of the given kinds, and lights that are Lambertian or not.
+/// The kernel for receivers of the given kinds, and lights that are Lambertian or not.
 ///
 /// # Errors
 /// Where the shader does not link.
@@ -24,23 +23,33 @@ pub fn linked_shader(
     glossy_lights: bool,
     traced: bool,
     settings: &Settings,
-) -> Result<String, Error> {
+) -> Result<GatherShader, Error> {
     let features = [
         ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("clamped", settings.clamp.is_some()),
         ("attenuated", settings.radius.is_some()),
-        ("traced", traced),
     ];
-    let features = [&features[..], &kinds.features()].concat();
-    link("gather", include_str!("shaders/gather.wesl"), &[], &features)
+    EstimatorShader {
+        estimator: include_str!("shaders/estimator.wesl"),
+        modules: &[],
+        features: &[&features[..], &kinds.features()].concat(),
+        traced,
+        capacity: if glossy_lights { GLOSSY_CAPACITY } else { LAMBERT_CAPACITY },
+        // Reading a light costs lavapipe more than shading with it: see benches/gather.rs.
+        pixels_a_lane: PixelsALane::Four,
+        bindings: PointBindings {
+            settings: &[("clamp", "f32"), ("radius2", "f32")],
+            tables: kinds.table_names(),
+        },
+    }
+    .link()
 }
 
+/// The bound of the geometry term, m⁻², and the square of the radius of Yuksel's attenuation, m².
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
-struct View {
-    camera: Vec3,
-    pixels: u32,
+struct Uniform {
     clamp: f32,
     radius2: f32,
     padding: [u32; 2],
@@ -61,37 +70,32 @@ pub(crate) fn batches(
     let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
     let glossy: Vec<_> = glossy.into_iter().map(GlossyLight::new).collect();
     gather.batches(
-        &Lights { records: &lambert, centers: &centers[0], capacity: LAMBERT_CAPACITY },
-        &Lights { records: &glossy, centers: &centers[1], capacity: GLOSSY_CAPACITY },
+        &Lights { records: &lambert, centers: &centers[0] },
+        &Lights { records: &glossy, centers: &centers[1] },
     )
 }
 
-/// For `pixels` surfaces of the given kinds, seen from `camera`.
+/// For the first `pixels` of `surfaces`, of the given kinds, seen from `camera`.
 ///
 /// # Errors
 /// Where a shader does not link or the adapter refuses.
 pub(crate) fn gather(
     gpu: &Gpu,
-    pixels: u32,
+    surfaces: (&Buffer, u32),
     camera: Vec3,
     kinds: &Reflectances,
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     let radius = settings.radius.unwrap_or(0.0);
-    let view = View {
-        camera,
-        pixels,
-        clamp: settings.clamp.unwrap_or(0.0),
-        radius2: radius * radius,
-        padding: [0; 2],
-    };
+    let clamp = settings.clamp.unwrap_or(0.0);
+    let uniform = Uniform { clamp, radius2: radius * radius, padding: [0; 2] };
+    let mut own = vec![gpu.uniform("settings of vpl", &uniform)?];
+    own.extend(kinds.tables(gpu)?);
     let traced = shadows.is_some();
-    let wgsl = [
+    let shaders = [
         linked_shader(kinds, false, traced, settings)?,
         linked_shader(kinds, kinds.specular, traced, settings)?,
     ];
-    let wgsl = wgsl.each_ref().map(String::as_str);
-    let tables = kinds.tables(gpu)?;
-    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, tables, shadows)
+    LightGather::new(gpu, surfaces, camera, shaders, own, shadows)
 }

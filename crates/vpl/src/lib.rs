@@ -54,7 +54,8 @@ impl Estimator for Vpl {
         let gpu = on_gpu.gpu();
         let kinds = Reflectances::of_scene(scene);
         let shadows = frame.shadows()?;
-        let gather = gather::gather(gpu, pixels, eye, &kinds, &settings, shadows)?;
+        let gather =
+            gather::gather(gpu, (on_gpu.surfaces(), pixels), eye, &kinds, &settings, shadows)?;
         let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {
             let (lights, times) = distribute(on_gpu, scene, settings.lights, seed)?;
@@ -78,8 +79,10 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let receivers = surfaces.iter().map(SurfaceRecord::brdf);
     let kinds = Reflectances::of(receivers.chain(lights.iter().map(|light| light.brdf)));
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &kinds, settings, None)?;
+    let on_gpu = gpu.storage("surfaces", surfaces)?;
+    let gather =
+        gather::gather(gpu, (&on_gpu, surfaces.len() as u32), camera, &kinds, settings, None)?;
     let batches = gather::batches(&gather, lights)?;
-    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
+    gather.add(&batches, 0..batches.count())?;
     gather.radiance()
 }

@@ -1,6 +1,6 @@
 //! What the linked WGSL holds.
 
-use manylights_gpu::{Binding, Gpu, Reflectances};
+use manylights_gpu::{Gpu, Reflectances};
 use manylights_scene::Measured;
 use manylights_vpl::{Settings, linked_shader};
 
@@ -23,20 +23,20 @@ fn every_setting() -> Vec<Settings> {
 #[test]
 fn a_lambertian_scene_links_no_ggx() {
     for settings in every_setting() {
-        let wgsl = linked_shader(&LAMBERT, false, false, &settings).expect("links");
+        let wgsl = linked_shader(&LAMBERT, false, false, &settings).expect("links").wgsl;
         for word in ["alpha2", "glossy", "schlick", "specular", "smith"] {
             assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
         }
     }
-    let glossy = linked_shader(&GLOSSY, true, false, &every_setting()[0]).expect("links");
+    let glossy = linked_shader(&GLOSSY, true, false, &every_setting()[0]).expect("links").wgsl;
     assert!(glossy.contains("schlick") && glossy.contains("smith_view"));
     assert!(!glossy.contains("relative_fresnel") && !glossy.contains("measured"));
 }
 
 #[test]
 fn options_that_are_off_are_not_in_the_shader() {
-    let plain = linked_shader(&GLOSSY, true, false, &every_setting()[0]).expect("links");
-    for word in ["attenuation", "view.clamp", "hidden"] {
+    let plain = linked_shader(&GLOSSY, true, false, &every_setting()[0]).expect("links").wgsl;
+    for word in ["attenuation", "settings", "hidden"] {
         assert!(!plain.contains(word), "`{word}` in:\n{plain}");
     }
 }
@@ -60,12 +60,9 @@ fn every_permutation_is_valid() {
             (&all, false),
             (&all, true),
         ] {
-            let mut bindings =
-                vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
-            bindings.resize(5 + kinds.tables(&gpu).expect("fits").len(), Binding::Storage);
             for traced in [false, true] {
-                let wgsl = linked_shader(kinds, lights, traced, &settings).expect("links");
-                gpu.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
+                let shader = linked_shader(kinds, lights, traced, &settings).expect("links");
+                shader.compile(&gpu).map(|_| ()).expect("valid WGSL");
             }
         }
     }

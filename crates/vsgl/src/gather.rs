@@ -1,21 +1,19 @@
 //! The kernels and what they read.
 
-use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_gpu::{Center, Error, Gpu, Reflectances, Shadows, link};
-use manylights_virtual_lights::{LightBatches, LightGather, Lights};
+use manylights_gpu::{Buffer, Center, Error, Gpu, PointBindings, Reflectances, Shadows};
+use manylights_virtual_lights::{
+    EstimatorShader, GatherShader, LightBatches, LightGather, Lights, PixelsALane,
+};
 
 use crate::light_record::{GlossyLight, LambertLight};
 use crate::{GaussianLight, Settings, SpecularLobe};
 
-/// Lights a batch, as `shaders/gather.wesl` declares its arrays: below 32 KiB each.
+/// Lights a batch: below 32 KiB each.
 pub(crate) const LAMBERT_CAPACITY: usize = 512;
 const GLOSSY_CAPACITY: usize = 256;
 
-const PIXELS_A_GROUP: u32 = 64;
-
-/// The WGSL of the kernel for receivers of the given reflectances and lights with or without a
-/// specular lobe.
+/// The kernel for receivers of the given reflectances and lights with or without a specular lobe.
 ///
 /// # Errors
 /// Where the shader does not link.
@@ -24,26 +22,25 @@ pub fn linked_shader(
     glossy_lights: bool,
     traced: bool,
     settings: &Settings,
-) -> Result<String, Error> {
+) -> Result<GatherShader, Error> {
     let features = [
         ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("filtered", settings.lobe == SpecularLobe::Filtered),
-        ("traced", traced),
     ];
-    let features = [&features[..], &kinds.features()].concat();
-    let modules = [
-        ("gaussian", include_str!("shaders/gaussian.wesl")),
-        ("reflection", include_str!("shaders/reflection.wesl")),
-    ];
-    link("gather", include_str!("shaders/gather.wesl"), &modules, &features)
-}
-
-#[derive(Clone, Copy, Pod, Zeroable)]
-#[repr(C)]
-struct View {
-    camera: Vec3,
-    pixels: u32,
+    EstimatorShader {
+        estimator: include_str!("shaders/estimator.wesl"),
+        modules: &[
+            ("gaussian", include_str!("shaders/gaussian.wesl")),
+            ("reflection", include_str!("shaders/reflection.wesl")),
+        ],
+        features: &[&features[..], &kinds.features()].concat(),
+        traced,
+        capacity: if glossy_lights { GLOSSY_CAPACITY } else { LAMBERT_CAPACITY },
+        pixels_a_lane: PixelsALane::One,
+        bindings: PointBindings::default(),
+    }
+    .link()
 }
 
 /// The lights in uniform memory.
@@ -62,29 +59,27 @@ pub(crate) fn batches(
     let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
     let glossy: Vec<_> = glossy.into_iter().map(GlossyLight::new).collect();
     gather.batches(
-        &Lights { records: &lambert, centers: &centers[0], capacity: LAMBERT_CAPACITY },
-        &Lights { records: &glossy, centers: &centers[1], capacity: GLOSSY_CAPACITY },
+        &Lights { records: &lambert, centers: &centers[0] },
+        &Lights { records: &glossy, centers: &centers[1] },
     )
 }
 
-/// For `pixels` surfaces seen from `camera`; kernels know the given reflectances alone.
+/// For the first `pixels` of `surfaces`, seen from `camera`; kernels know the given reflectances alone.
 ///
 /// # Errors
 /// Where a shader does not link or the adapter refuses.
 pub(crate) fn gather(
     gpu: &Gpu,
-    pixels: u32,
+    surfaces: (&Buffer, u32),
     camera: Vec3,
     kinds: &Reflectances,
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
-    let view = View { camera, pixels };
     let traced = shadows.is_some();
-    let wgsl = [
+    let shaders = [
         linked_shader(kinds, false, traced, settings)?,
         linked_shader(kinds, kinds.specular, traced, settings)?,
     ];
-    let wgsl = wgsl.each_ref().map(String::as_str);
-    LightGather::new(gpu, [pixels, PIXELS_A_GROUP], &view, wgsl, Vec::new(), shadows)
+    LightGather::new(gpu, surfaces, camera, shaders, Vec::new(), shadows)
 }

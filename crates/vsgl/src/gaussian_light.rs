@@ -3,8 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use manylights_gpu::{
-    Binding, Buffer, Dispatch, Error, Gpu, GpuFrame, PassTime, Reflectances, Resource,
-    SurfaceRecord, link,
+    Binding, Buffer, Error, Gpu, GpuFrame, PassTime, Reflectances, Resource, SurfaceRecord, link,
 };
 use manylights_scene::{Brdf, Scene};
 use manylights_virtual_lights::{LIT_TEXEL, LitTexel, LitTexels, lit_texels, scene_maps};
@@ -187,12 +186,8 @@ fn filter(
     buffers.extend(&materials.tables);
     let kernel = gpu.kernel("filter", &filter_shader(&materials.kinds)?, &bindings)?;
     let resources: Vec<_> = buffers.into_iter().map(Resource::Buffer).collect();
-    let times = gpu.run(&[Dispatch {
-        pass: "filter",
-        kernel: &kernel,
-        resources: &resources,
-        workgroups: [groups[0], groups[1], 1],
-    }])?;
+    let pass = gpu.pass("filter", &kernel, &resources)?;
+    let times = gpu.run(&[pass.over([groups[0], groups[1], 1])])?;
     let lobes: Vec<Lobe> = gpu.read(&lobes)?;
     let centers: Vec<Center> = gpu.read(&centers)?;
     let light = |(group, center): (&[Lobe], &Center)| {

@@ -100,7 +100,14 @@ impl Estimator for Vsgl {
         let gpu = on_gpu.gpu();
         let materials = materials.clone();
         let shadows = frame.shadows()?;
-        let gather = gather::gather(gpu, pixels, eye, &materials.kinds, &settings, shadows)?;
+        let gather = gather::gather(
+            gpu,
+            (on_gpu.surfaces(), pixels),
+            eye,
+            &materials.kinds,
+            &settings,
+            shadows,
+        )?;
         let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {
             let (lights, times) = lights_of_materials(on_gpu, scene, &materials, &settings, seed)?;
@@ -143,8 +150,10 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let mut kinds = Reflectances::of(surfaces.iter().map(SurfaceRecord::brdf));
     kinds.specular |= lights.iter().any(GaussianLight::has_specular);
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &kinds, settings, None)?;
+    let on_gpu = gpu.storage("surfaces", surfaces)?;
+    let gather =
+        gather::gather(gpu, (&on_gpu, surfaces.len() as u32), camera, &kinds, settings, None)?;
     let batches = gather::batches(&gather, lights)?;
-    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
+    gather.add(&batches, 0..batches.count())?;
     gather.radiance()
 }

@@ -15,21 +15,22 @@ const EXACT: Reflectances =
 
 #[test]
 fn a_lambertian_scene_links_no_ggx() {
-    let gather = linked_shader(&LAMBERT, false, false, &SETTINGS).expect("links");
+    let gather = linked_shader(&LAMBERT, false, false, &SETTINGS).expect("links").wgsl;
     let filter = filter_shader(&LAMBERT).expect("links");
     for (name, wgsl) in [("gather", &gather), ("filter", &filter)] {
         for word in ["glossy", "schlick", "smith", "albedos", "Mirror"] {
             assert!(!wgsl.contains(word), "`{word}` in the Lambertian {name}:\n{wgsl}");
         }
     }
-    assert!(linked_shader(&GLOSSY, true, false, &SETTINGS).expect("links").contains("smith_view"));
+    let glossy = linked_shader(&GLOSSY, true, false, &SETTINGS).expect("links").wgsl;
+    assert!(glossy.contains("smith_view"));
     assert!(filter_shader(&GLOSSY).expect("links").contains("albedos"));
 }
 
 #[test]
 fn the_exact_term_is_linked_where_it_is_needed() {
     let shaders = [&GLOSSY, &EXACT].map(|kinds| {
-        let gather = linked_shader(kinds, true, false, &SETTINGS).expect("links");
+        let gather = linked_shader(kinds, true, false, &SETTINGS).expect("links").wgsl;
         [gather, filter_shader(kinds).expect("links")]
     });
     let [[plain, plain_filter], [exact, exact_filter]] = shaders;
@@ -40,7 +41,7 @@ fn the_exact_term_is_linked_where_it_is_needed() {
 #[test]
 fn the_other_lobe_is_not_in_the_shader() {
     let [anisotropic, filtered] = LOBES.map(|lobe| {
-        linked_shader(&GLOSSY, true, false, &Settings { lobe, ..SETTINGS }).expect("links")
+        linked_shader(&GLOSSY, true, false, &Settings { lobe, ..SETTINGS }).expect("links").wgsl
     });
     assert!(!anisotropic.contains("visible_share") && filtered.contains("visible_share"));
     assert!(!filtered.contains("narrow") && anisotropic.contains("narrow"));
@@ -48,16 +49,14 @@ fn the_other_lobe_is_not_in_the_shader() {
 
 #[test]
 fn every_permutation_is_valid() {
-    let bindings =
-        [Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut, Binding::Storage];
     for lobe in LOBES {
         for (kinds, lights) in
             [(&LAMBERT, false), (&GLOSSY, false), (&GLOSSY, true), (&EXACT, false), (&EXACT, true)]
         {
             for traced in [false, true] {
                 let settings = Settings { lobe, ..SETTINGS };
-                let wgsl = linked_shader(kinds, lights, traced, &settings).expect("links");
-                GPU.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
+                let shader = linked_shader(kinds, lights, traced, &settings).expect("links");
+                shader.compile(&GPU).map(|_| ()).expect("valid WGSL");
             }
         }
     }

@@ -80,7 +80,8 @@ impl Estimator for Vsl {
         let gpu = on_gpu.gpu();
         let kinds = Reflectances::of_scene(scene);
         let shadows = frame.shadows()?;
-        let gather = gather::gather(gpu, pixels, eye, &kinds, &settings, shadows)?;
+        let gather =
+            gather::gather(gpu, (on_gpu.surfaces(), pixels), eye, &kinds, &settings, shadows)?;
         let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
         let batches_a_step = DIRECTIONS_A_STEP / directions_a_batch;
         let place = move |gather: &LightGather| {
@@ -107,8 +108,10 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let receivers = surfaces.iter().map(SurfaceRecord::brdf);
     let kinds = Reflectances::of(receivers.chain(lights.iter().map(|sphere| sphere.light.brdf)));
-    let gather = gather::gather(gpu, surfaces.len() as u32, camera, &kinds, settings, None)?;
+    let on_gpu = gpu.storage("surfaces", surfaces)?;
+    let gather =
+        gather::gather(gpu, (&on_gpu, surfaces.len() as u32), camera, &kinds, settings, None)?;
     let batches = gather::batches(&gather, lights, seed)?;
-    gather.add(&gpu.storage("surfaces", surfaces)?, &batches, 0..batches.count())?;
+    gather.add(&batches, 0..batches.count())?;
     gather.radiance()
 }

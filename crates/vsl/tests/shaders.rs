@@ -1,6 +1,6 @@
 //! What the linked WGSL holds.
 
-use manylights_gpu::{Binding, Gpu, Reflectances};
+use manylights_gpu::{Gpu, Reflectances};
 use manylights_scene::Measured;
 use manylights_virtual_lights::RadiusRule;
 use manylights_vsl::{Sampling, Settings, linked_shader};
@@ -22,21 +22,22 @@ fn settings(sampling: Sampling) -> Settings {
 #[test]
 fn a_lambertian_scene_links_no_ggx() {
     for sampling in SAMPLINGS {
-        let wgsl = linked_shader(&LAMBERT, false, false, &settings(sampling)).expect("links");
+        let wgsl = linked_shader(&LAMBERT, false, false, &settings(sampling)).expect("links").wgsl;
         for word in ["glossy", "schlick", "specular", "smith"] {
             assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
         }
     }
-    let glossy = linked_shader(&GLOSSY, true, false, &settings(Sampling::Both)).expect("links");
+    let glossy =
+        linked_shader(&GLOSSY, true, false, &settings(Sampling::Both)).expect("links").wgsl;
     assert!(glossy.contains("schlick") && glossy.contains("smith_view"));
     assert!(!glossy.contains("relative_fresnel") && !glossy.contains("measured"));
 }
 
 #[test]
 fn strategies_that_are_off_are_not_in_the_shader() {
-    let cone = linked_shader(&GLOSSY, true, false, &settings(Sampling::Cone)).expect("links");
+    let cone = linked_shader(&GLOSSY, true, false, &settings(Sampling::Cone)).expect("links").wgsl;
     assert!(!cone.contains("glossy_density") && !cone.contains("in_cosine_lobe"));
-    let brdf = linked_shader(&GLOSSY, true, false, &settings(Sampling::Brdf)).expect("links");
+    let brdf = linked_shader(&GLOSSY, true, false, &settings(Sampling::Brdf)).expect("links").wgsl;
     assert!(!brdf.contains("in_cone") && brdf.contains("in_cosine_lobe"));
 }
 
@@ -59,13 +60,10 @@ fn every_permutation_is_valid() {
             (&all, false),
             (&all, true),
         ] {
-            let mut bindings =
-                vec![Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
-            bindings.resize(5 + kinds.tables(&gpu).expect("fits").len(), Binding::Storage);
             for traced in [false, true] {
                 let settings = settings(sampling);
-                let wgsl = linked_shader(kinds, lights, traced, &settings).expect("links");
-                gpu.kernel("gather", &wgsl, &bindings).map(|_| ()).expect("valid WGSL");
+                let shader = linked_shader(kinds, lights, traced, &settings).expect("links");
+                shader.compile(&gpu).map(|_| ()).expect("valid WGSL");
             }
         }
     }

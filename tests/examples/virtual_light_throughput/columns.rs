@@ -68,10 +68,13 @@ pub(crate) fn columns(glossy: bool) -> Vec<Column> {
     columns
 }
 
+/// What a light adds to a pixel, as linking names it.
+const CONTRIBUTION: &str = "package_estimator_contribution";
+
 fn of_vpl(kinds: &Reflectances) -> Result<Operations, Error> {
     let settings = manylights_vpl::Settings::default();
     let shader = manylights_vpl::linked_shader(kinds, kinds.specular, false, &settings)?;
-    operations(&shader, "contribution", 1)
+    operations(&shader.wgsl, CONTRIBUTION, 1)
 }
 
 /// Every sample of a cone is evaluated.
@@ -82,7 +85,7 @@ fn of_vsl(kinds: &Reflectances) -> Result<Operations, Error> {
         ..manylights_vsl::Settings::default()
     };
     let shader = manylights_vsl::linked_shader(kinds, kinds.specular, false, &settings)?;
-    operations(&shader, "contribution", SAMPLES.into())
+    operations(&shader.wgsl, CONTRIBUTION, SAMPLES.into())
 }
 
 /// A light on a glossy surface is two Gaussians.
@@ -90,7 +93,7 @@ fn of_vsgl(kinds: &Reflectances) -> Result<Operations, Error> {
     let settings = manylights_vsgl::Settings::default();
     let shader = manylights_vsgl::linked_shader(kinds, kinds.specular, false, &settings)?;
     let lobes = if kinds.specular { 2 } else { 1 };
-    operations(&shader, "contribution", 1).map(|of_lobe| of_lobe * lobes)
+    operations(&shader.wgsl, CONTRIBUTION, 1).map(|of_lobe| of_lobe * lobes)
 }
 
 fn of_hvl(glossy: bool, form: Form, bands: usize) -> Result<Operations, Error> {
@@ -104,5 +107,5 @@ fn of_hvl(glossy: bool, form: Form, bands: usize) -> Result<Operations, Error> {
         measured: false,
     };
     let shader = manylights_hvl::linked_shader(lobes, false, &settings)?;
-    operations(&shader, "contribution", 1)
+    operations(&shader.wgsl, CONTRIBUTION, 1)
 }

@@ -1,6 +1,6 @@
 //! The adapter's arithmetic, by a kernel that does nothing else.
 
-use manylights_gpu::{Binding, Dispatch, Gpu, Resource};
+use manylights_gpu::{Binding, Gpu, Resource};
 
 /// Chains of multiplication and addition that do not wait for each other: more hide what an operation
 /// takes, but need registers.
@@ -37,10 +37,9 @@ fn with_chains(gpu: &Gpu, chains: usize) -> f64 {
     let step = gpu.uniform("step", &[0.5_f32; 4]).expect("memory");
     let sums = gpu.zeroed("sums", u64::from(GROUPS) * LANES * 4).expect("memory");
     let resources = [Resource::Buffer(&step), Resource::Buffer(&sums)];
-    let workgroups = [GROUPS, 1, 1];
-    let dispatch = Dispatch { pass: "peak", kernel: &kernel, resources: &resources, workgroups };
+    let pass = gpu.pass("peak", &kernel, &resources).expect("it fits");
     // The first one compiles.
-    let round = |_| gpu.run(std::slice::from_ref(&dispatch)).expect("a pass")[0].seconds;
+    let round = |_| gpu.run(&[pass.over([GROUPS, 1, 1])]).expect("a pass")[0].seconds;
     let fastest = (0..=ROUNDS).map(round).fold(f64::MAX, f64::min);
     let operations = 2 * u64::from(GROUPS) * LANES * TURNS * (STEPS * chains) as u64;
     operations as f64 / fastest

@@ -5,7 +5,7 @@ mod unit;
 
 use std::sync::LazyLock;
 
-use manylights_gpu::{Binding, Dispatch, Gpu, Resource, link};
+use manylights_gpu::{Binding, Gpu, Resource, link};
 use manylights_harmonics::wgsl::{Function, module};
 use manylights_harmonics::zonal::{Cap, cap_stable};
 use manylights_harmonics::{Basis, count};
@@ -50,8 +50,8 @@ pub(crate) fn run(
     let results = GPU.zeroed("results", 4 * (inputs.len() * size) as u64).expect("it fits");
     let resources = [&inputs_on_gpu, &coefficients, &results].map(Resource::Buffer);
     let workgroups = [inputs.len().div_ceil(32) as u32, 1, 1];
-    GPU.run(&[Dispatch { pass: "test", kernel: &kernel, resources: &resources, workgroups }])
-        .expect("it runs");
+    let pass = GPU.pass("test", &kernel, &resources).expect("it fits");
+    GPU.run(&[pass.over(workgroups)]).expect("it runs");
     let values: Vec<f32> = GPU.read(&results).expect("it reads back");
     assert!(values.iter().all(|value| value.is_finite()), "{bands} bands: not finite");
     values[..inputs.len() * size].iter().map(|&value| f64::from(value)).collect()

@@ -3,7 +3,9 @@
 //! Over seeds s the picture X_s of a pixel has a mean and a variance, and its expected squared error
 //! against the truth r splits into bias² + variance (Wackerly et al., "Mathematical Statistics",
 //! 8.2). With n seeds the variance is estimated with n − 1, and (mean − r)² exceeds bias² by
-//! variance/n and by the variance of the reference itself, both of which are subtracted.
+//! variance/n and by the variance of the reference itself, both of which are subtracted. Where another
+//! method is the reference, the truth r_s changes with the seed: then it is X_s − r_s that is split, and
+//! the reference has no variance of its own.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,6 +14,7 @@ use manylights_metrics::RadianceImage;
 
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
+use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::{SceneCells, image_path};
 use crate::question::plan::Turn;
 
@@ -24,7 +27,7 @@ pub(crate) struct Bias {
     pub(crate) deviation: f64,
 }
 
-/// Splits the error of a variant by visibility of the reference; nothing below two seeds.
+/// Splits the error of a variant by name of the reference; nothing below two seeds.
 ///
 /// # Errors
 /// One line where a picture cannot be read.
@@ -36,36 +39,38 @@ pub(crate) fn of_cells(
     let pictured = cells
         .iter()
         .filter(|(turn, cell)| turn.repetition == 0 && matches!(cell.outcome, Outcome::Done(_)));
-    let read = |(_, cell): &&(Turn, Cell)| {
+    let read = |(turn, cell): &&(Turn, Cell)| {
         let path = image_path(out, &scene.scene, &cell.key).with_extension("exr");
         let image = RadianceImage::read_exr(&path).map_err(Failure::input)?;
-        Ok(image.display(scene.exposure))
+        Ok((turn.seed, image.display(scene.exposure)))
     };
-    let pictures: Vec<RadianceImage> = pictured.map(read).collect::<Result<_, Failure>>()?;
+    let pictures: Vec<(u64, RadianceImage)> = pictured.map(read).collect::<Result<_, Failure>>()?;
     if pictures.len() < 2 {
         return Ok(BTreeMap::new());
     }
-    let split = |reference: &crate::measurement::reference::SceneReference| {
-        let truth = reference.image.display(scene.exposure);
-        let floor = reference.display_floor;
-        (reference.visibility.to_string(), split(&pictures, &truth, floor))
+    let split = |reference: &SceneReference| {
+        let truths = pictures.iter().map(|(seed, _)| reference.image_for(*seed));
+        let truths: Vec<_> = truths.map(|truth| truth.display(scene.exposure)).collect();
+        let pairs: Vec<_> = pictures.iter().map(|(_, picture)| picture).zip(&truths).collect();
+        (reference.name.clone(), split(&pairs, reference.display_floor))
     };
     Ok(scene.references.iter().map(split).collect())
 }
 
-fn split(pictures: &[RadianceImage], truth: &RadianceImage, floor: f64) -> Bias {
-    let n = pictures.len() as f64;
+/// Of pictures, each with its truth.
+fn split(pairs: &[(&RadianceImage, &RadianceImage)], floor: f64) -> Bias {
+    let n = pairs.len() as f64;
+    let components = pairs[0].0.pixels.as_flattened().len();
     let (mut squared, mut variance) = (0.0, 0.0);
-    for (index, truth) in truth.pixels.iter().enumerate() {
-        for (component, &truth) in truth.iter().enumerate() {
-            let value = |picture: &RadianceImage| f64::from(picture.pixels[index][component]);
-            let mean = pictures.iter().map(value).sum::<f64>() / n;
-            let spread: f64 = pictures.iter().map(|picture| (value(picture) - mean).powi(2)).sum();
-            squared += (mean - f64::from(truth)).powi(2);
-            variance += spread / (n - 1.0);
-        }
+    for index in 0..components {
+        let value = |image: &RadianceImage| f64::from(image.pixels.as_flattened()[index]);
+        let errors = || pairs.iter().map(|(picture, truth)| value(picture) - value(truth));
+        let mean = errors().sum::<f64>() / n;
+        let spread: f64 = errors().map(|error| (error - mean).powi(2)).sum();
+        squared += mean.powi(2);
+        variance += spread / (n - 1.0);
     }
-    let count = 3.0 * truth.pixels.len() as f64;
+    let count = components as f64;
     let (squared, variance) = (squared / count, variance / count);
     Bias {
         bias: (squared - variance / n - floor * floor).max(0.0).sqrt(),
@@ -104,10 +109,14 @@ mod tests {
                 |index: u64| if splitmix(index * 8 + 9) >> 63 == 0 { floor } else { -floor };
             let pixels = (0..64 * 64).map(|index| [0.5 + value(index); 3]).collect();
             let truth = RadianceImage { width: 64, height: 64, pixels };
-            let Bias { bias, deviation } = split(&pictures, &truth, floor.into());
+            let pairs: Vec<_> = pictures.iter().map(|picture| (picture, &truth)).collect();
+            let Bias { bias, deviation } = split(&pairs, floor.into());
             // 4096 pixels of 8 seeds: both are known to about 1 %.
             assert!((bias - 0.1).abs() < 0.01, "{bias} beside {floor}");
             assert!((deviation - 0.2).abs() < 0.01, "{deviation} beside {floor}");
         }
+        // Against itself, seed by seed, nothing is left, whatever the noise.
+        let own: Vec<_> = pictures.iter().map(|picture| (picture, picture)).collect();
+        assert_eq!(split(&own, 0.0), Bias { bias: 0.0, deviation: 0.0 });
     }
 }

@@ -10,7 +10,7 @@ pub(crate) fn error_scale(images: &[&RadianceImage], references: &[SceneReferenc
     let mut errors: Vec<f32> = Vec::new();
     for image in images {
         for reference in references {
-            let pairs = image.pixels.iter().zip(&reference.image.pixels);
+            let pairs = image.pixels.iter().zip(&reference.image().pixels);
             errors
                 .extend(pairs.map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f32>() / 3.0));
         }

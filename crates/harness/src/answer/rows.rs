@@ -9,10 +9,12 @@ use crate::answer::bias::{self, Bias};
 use crate::answer::statistics::{Quartiles, median, paired_difference, quartiles};
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
+use crate::measurement::inputs::ReferenceInputs;
 use crate::measurement::scene_cells::SceneCells;
 use crate::question::experiment::Experiment;
 use crate::question::plan::Turn;
 use crate::question::published::Quantity;
+use crate::question::references::Reference;
 
 /// A scene of the answer.
 pub(crate) struct SceneAnswer {
@@ -20,6 +22,8 @@ pub(crate) struct SceneAnswer {
     pub(crate) scene: String,
     /// One for each variant and machine, in the order of the experiment.
     pub(crate) rows: Vec<Row>,
+    /// What it is compared with, by name.
+    references: BTreeMap<String, ReferenceInputs>,
     /// Index of the variant that ratios refer to.
     baseline: usize,
 }
@@ -66,11 +70,11 @@ pub(crate) struct Medians {
     pub(crate) counters: BTreeMap<String, u64>,
     /// Key of the cell whose picture stands for the row: the first seed's.
     pub(crate) key: String,
-    /// By visibility of the reference; medians over seeds.
+    /// By name of the reference; medians over seeds.
     pub(crate) errors: BTreeMap<String, Comparison>,
-    /// RMSE of sRGB values of each seed, by visibility of the reference.
+    /// RMSE of sRGB values of each seed, by name of the reference.
     pub(crate) seed_rmse: BTreeMap<String, Vec<f64>>,
-    /// By visibility of the reference, where there are two seeds or more.
+    /// By name of the reference, where there are two seeds or more.
     pub(crate) bias: BTreeMap<String, Bias>,
     /// The way to the picture: medians of time, errors of the first seed.
     pub(crate) checkpoints: Vec<Checkpoint>,
@@ -109,7 +113,22 @@ impl SceneAnswer {
             Ok::<_, Failure>(Row { variant, machine: machine.to_owned(), result })
         };
         let rows = groups.into_iter().map(row).collect::<Result<_, _>>()?;
-        Ok(Self { scene: scene.scene.clone(), rows, baseline: experiment.baseline })
+        let references = scene.cells.first().map(|(_, cell)| cell.inputs.references.clone());
+        Ok(Self {
+            scene: scene.scene.clone(),
+            rows,
+            references: references.unwrap_or_default(),
+            baseline: experiment.baseline,
+        })
+    }
+
+    /// A reference for headings: who made it, and how.
+    pub(crate) fn description(&self, experiment: &Experiment, reference: &Reference) -> String {
+        let samples = match self.references.get(&reference.name) {
+            Some(ReferenceInputs::Samples(samples)) => *samples,
+            _ => experiment.scale.reference_samples,
+        };
+        reference.description(experiment.transport, samples)
     }
 
     /// The row of the baseline that the same machine ran.
@@ -160,9 +179,7 @@ impl Quantity {
     /// Ours.
     pub(crate) fn value(&self, of: &Medians, baseline: Option<&Medians>) -> Option<f64> {
         match self {
-            Self::Error(metric, reference) => {
-                Some((metric.value)(&of.errors[&reference.to_string()].display))
-            }
+            Self::Error(metric, reference) => Some((metric.value)(&of.errors[reference].display)),
             Self::TimeRatio => Some(of.seconds.median / baseline?.seconds.median),
         }
     }
@@ -320,7 +337,9 @@ mod tests {
     fn rows_closer_than_the_floor_share_a_rank() {
         let declined = row_of(3, RowResult::Declined("no".into()));
         let rows = vec![row(0, 0.5), row(1, 0.105), row(2, 0.1), declined, row(4, 0.2)];
-        let ranks = SceneAnswer { scene: "s".into(), rows, baseline: 0 }.ranks("traced");
+        let references = BTreeMap::new();
+        let answer = SceneAnswer { scene: "s".into(), rows, references, baseline: 0 };
+        let ranks = answer.ranks("traced");
         let rank = |place, shared| Some(Rank { place, shared });
         assert_eq!(ranks, [rank(4, false), rank(1, true), rank(1, true), None, rank(3, false)]);
     }

@@ -135,7 +135,7 @@ fn point(medians: &Medians, reference: &str) -> Option<Point> {
 pub(crate) enum Reached {
     /// After so many seconds, between its points on a log-log scale.
     At(f64),
-    /// Before its first point, which took so many seconds.
+    /// Before its first point, or before one without any error, which took so many seconds.
     Before(f64),
     /// Not within its points.
     Never,
@@ -150,6 +150,10 @@ pub(crate) fn time_to_reach(points: &[Point], error: f64) -> Reached {
     let Some(start) = reached.checked_sub(1).map(|before| points[before]) else {
         return Reached::Before(end.seconds[0]);
     };
+    if end.rmse[0] == 0.0 {
+        // No logarithm leads there.
+        return Reached::Before(end.seconds[0]);
+    }
     let share = (start.rmse[0] / error).ln() / (start.rmse[0] / end.rmse[0]).ln();
     Reached::At(start.seconds[0] * (end.seconds[0] / start.seconds[0]).powf(share))
 }
@@ -168,5 +172,7 @@ mod tests {
         assert_eq!(time_to_reach(&points, 2.0), Reached::Before(1.0));
         assert_eq!(time_to_reach(&points, 0.05), Reached::Never);
         assert_eq!(time_to_reach(&[], 0.05), Reached::Never);
+        let perfect = Point { amount: 1, seconds: [9.0; 3], rmse: [0.0; 3] };
+        assert_eq!(time_to_reach(&[at(1.0), perfect], 0.05), Reached::Before(9.0));
     }
 }

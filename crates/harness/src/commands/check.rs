@@ -104,6 +104,7 @@ fn measure(
     let mut session = Session::open(experiment, out, &cache, machine.adapter.as_deref())?;
     session.replayed = baseline.to_vec();
     let variants: Vec<usize> = (0..experiment.variants.len()).collect();
+    scenes.iter().try_for_each(|scene| session.check_references(scene))?;
     let mut cells = Vec::new();
     for scene in &scenes {
         for camera in 0..experiment.cameras().len() {

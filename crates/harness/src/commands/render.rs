@@ -10,7 +10,7 @@ use crate::measurement::provenance::Provenance;
 use crate::measurement::stage::{self, Stage};
 use crate::output;
 use crate::progress::Progress;
-use crate::question::experiment::has_last_segment;
+use crate::question::plan::no_choice;
 use crate::question::settings;
 use crate::registry::{self, Methods};
 use clap::Args;
@@ -27,10 +27,12 @@ pub(crate) struct RenderArguments {
     /// Sets a parameter of the method
     #[arg(long, value_name = "KEY=VALUE", value_parser = settings::split)]
     pub(crate) set: Vec<(String, String)>,
-    /// Light paths: direct, indirect-1 (or another number of bounces), all
+    /// Light paths: direct, indirect-1 (or another number of bounces), direct+indirect-1 (the direct
+    /// light of point-like lights is exact and the same for all methods), all
     #[arg(long, default_value = "indirect-1", value_name = "PATHS")]
     pub(crate) transport: Transport,
-    /// Of the last segment of indirect-1: traced, ignored [default: what the method computes]
+    /// Of the last segment of direct, indirect-1, direct+indirect-1: traced, ignored [default: what the
+    /// method computes]
     #[arg(long, value_name = "VISIBILITY")]
     pub(crate) visibility: Option<Visibility>,
     /// Size of the picture
@@ -59,23 +61,23 @@ pub(crate) fn run(arguments: &RenderArguments, methods: Methods) -> Result<(), F
     let method = methods[place];
     let pairs = arguments.set.iter().map(|(key, value)| (key.as_str(), value.as_str()));
     let parameters = settings::parameters(method, pairs).map_err(Failure::input)?;
-    if arguments.visibility == Some(Visibility::Ignored) && !has_last_segment(arguments.transport) {
-        return Err(Failure::input("--visibility ignored needs --transport indirect-1"));
+    let transport = arguments.transport;
+    if arguments.visibility == Some(Visibility::Ignored) && transport.visibility().is_none() {
+        return Err(Failure::input(format!("--visibility ignored: {}", no_choice(transport))));
     }
+    let visibility = arguments.visibility.unwrap_or(method.visibility());
     let (exr, png) = output::check_image(&arguments.output)?;
     let scene = stage::load(&arguments.scene, arguments.machine.assets.as_deref())?;
     let inputs = scene.sources.iter().map(PathBuf::as_path);
     output::keep_inputs([exr.clone(), png.clone()], inputs, "-o")?;
     let gpu = stage::open_gpu([method], arguments.machine.adapter.as_deref())?;
     let camera = arguments.camera.as_deref();
-    let stage = Stage::new(&scene, camera, arguments.resolution, gpu.as_ref())?;
-    let visibility = arguments.visibility.unwrap_or(method.visibility());
-    let transport = measure::with_visibility(arguments.transport, visibility);
-    let frame = stage.frame(transport, arguments.seed);
+    let stage = Stage::new(&scene, camera, transport, arguments.resolution, gpu.as_ref())?;
+    let frame = stage.frame(visibility, arguments.seed);
     let mut progress = Progress::new(&format!("{} {}", scene.name, method.id()));
     let baking = method.baking();
     let bake = baking.map(|baking| bakes::once(baking, &frame, &parameters)).transpose()?;
-    let measured = measure::measure(
+    let mut measured = measure::measure(
         method,
         &frame,
         &parameters,
@@ -86,16 +88,17 @@ pub(crate) fn run(arguments: &RenderArguments, methods: Methods) -> Result<(), F
         },
     )?;
     drop(progress);
+    measured.image = stage.completed(measured.image);
     let mut facts = vec![
         ("scene".to_owned(), scene.name.clone()),
         ("camera".to_owned(), stage.camera.name.clone()),
         ("method".to_owned(), method.id().to_owned()),
         ("parameters".to_owned(), parameters.to_string()),
-        ("transport".to_owned(), measured.transport.to_string()),
+        ("transport".to_owned(), transport.to_string()),
         ("seed".to_owned(), arguments.seed.to_string()),
         ("exposure".to_owned(), scene.exposure.to_string()),
     ];
-    if let Some(visibility) = measure::visibility(measured.transport) {
+    if transport.visibility().is_some() {
         facts.push(("visibility".to_owned(), visibility.to_string()));
     }
     facts.extend(attributes(&Provenance::here(gpu.as_ref())));

@@ -61,6 +61,7 @@ pub(crate) fn run(arguments: &RunArguments, methods: Methods) -> Result<(), Fail
         return job(&mut session, &scenes, key);
     }
     let variants: Vec<usize> = (0..experiment.variants.len()).collect();
+    scenes.iter().try_for_each(|scene| session.check_references(scene))?;
     let mut all_cells = Vec::with_capacity(scenes.len());
     for scene in &scenes {
         for camera in 0..experiment.cameras().len() {
@@ -108,6 +109,7 @@ fn job(session: &mut Session<'_>, scenes: &[Scene], key: &str) -> Result<(), Fai
     let job = jobs.iter().find(|job| job.key == key).ok_or_else(|| {
         Failure::input(format!("--cell {key}: not a key of this experiment; see manylights plan"))
     })?;
+    session.check_references(&scenes[job.scene])?;
     let cells = session.scene(&scenes[job.scene], job.camera, &[job.variant])?;
     session.retire(&cells)?;
     let failed = cells.cells.iter().find_map(|(_, cell)| match &cell.outcome {

@@ -83,7 +83,7 @@ pub(crate) struct Done {
     pub(crate) counters: BTreeMap<String, u64>,
     /// Of the pixels' bits, row by row, little endian.
     pub(crate) image_sha256: String,
-    /// By visibility of the reference.
+    /// By name of the reference.
     pub(crate) errors: BTreeMap<String, Comparison>,
     /// The way to the picture, at doubling amounts, where the method is progressive.
     pub(crate) checkpoints: Vec<Checkpoint>,
@@ -96,7 +96,7 @@ pub(crate) struct Checkpoint {
     pub(crate) amount: u64,
     /// Wall clock of the work so far.
     pub(crate) step_seconds: f64,
-    /// RMSE of sRGB values by visibility of the reference.
+    /// RMSE of sRGB values by name of the reference.
     pub(crate) display_rmse: BTreeMap<String, f64>,
 }
 
@@ -107,7 +107,7 @@ pub(crate) struct Comparison {
     pub(crate) linear: Errors,
     /// Of sRGB values at the scene's exposure.
     pub(crate) display: Errors,
-    /// Noise of the reference, as RMSE of radiance.
+    /// Noise of the reference, as RMSE of radiance; zero where another method is the reference.
     pub(crate) linear_floor: f64,
     /// Noise of the reference, as RMSE of sRGB values.
     pub(crate) display_floor: f64,
@@ -123,6 +123,7 @@ pub(crate) fn image_sha256(image: &RadianceImage) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measurement::inputs::ReferenceInputs;
     use crate::question::plan::{Bounded, Budget};
 
     fn inputs() -> Inputs {
@@ -138,7 +139,17 @@ mod tests {
             asked_visibility: Some("ignored".into()),
             resolution: [16, 16],
             exposure: 1.5,
-            references: BTreeMap::from([("traced".into(), 16)]),
+            references: BTreeMap::from([
+                ("traced".into(), ReferenceInputs::Samples(16)),
+                (
+                    "per-pixel".into(),
+                    ReferenceInputs::Method {
+                        method: "m".into(),
+                        parameters: BTreeMap::from([("n".into(), 0.5)]),
+                        asked_visibility: None,
+                    },
+                ),
+            ]),
             bounded: Bounded::TotalTime,
             camera: Some("side".into()),
         }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::measurement::provenance::{Provenance, sha256};
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Bounded, Budget, Variant};
+use crate::question::references::{Reference, Source};
 
 /// What decides the picture and its errors, and where its time was taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,8 +42,48 @@ pub(crate) struct Inputs {
     pub(crate) resolution: [u32; 2],
     /// Factor from radiance to display-referred values.
     pub(crate) exposure: f32,
-    /// The references that it is compared with: samples a pixel by visibility.
-    pub(crate) references: BTreeMap<String, u32>,
+    /// The references that it is compared with, by name.
+    pub(crate) references: BTreeMap<String, ReferenceInputs>,
+}
+
+/// What a reference depends on, beside all that it shares with the cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum ReferenceInputs {
+    /// Path traced with the visibility that names it: samples a pixel.
+    Samples(u32),
+    /// By another method, with the seed of the cell.
+    Method {
+        /// Its id.
+        method: String,
+        /// Its parameters.
+        parameters: BTreeMap<String, f64>,
+        /// Visibility of the last segment, where it is not the method's own.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        asked_visibility: Option<String>,
+    },
+}
+
+impl ReferenceInputs {
+    /// As asked for.
+    pub(crate) fn new(reference: &Reference, samples: u32) -> Self {
+        match &reference.source {
+            Source::Paths(_) => Self::Samples(samples),
+            Source::Method(variant) => Self::Method {
+                method: variant.method.id().to_owned(),
+                parameters: variant.given(),
+                asked_visibility: variant.unusual_visibility().map(|chosen| chosen.to_string()),
+            },
+        }
+    }
+
+    /// Whether a reference of these inputs is one that was `asked` for: more samples are.
+    pub(crate) fn serves(&self, asked: &Self) -> bool {
+        match (self, asked) {
+            (Self::Samples(samples), Self::Samples(asked)) => samples >= asked,
+            _ => self == asked,
+        }
+    }
 }
 
 impl Inputs {
@@ -70,7 +111,11 @@ impl Inputs {
             asked_visibility: variant.unusual_visibility().map(|visibility| visibility.to_string()),
             resolution: experiment.scale.resolution,
             exposure: scene.exposure,
-            references: experiment.references.iter().map(|v| (v.to_string(), samples)).collect(),
+            references: experiment
+                .references
+                .iter()
+                .map(|reference| (reference.name.clone(), ReferenceInputs::new(reference, samples)))
+                .collect(),
         }
     }
 

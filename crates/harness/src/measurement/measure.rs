@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 
 use manylights_method::{Bake, Error, Frame, Method, Parameters, Progress, Run};
 use manylights_metrics::RadianceImage;
-use manylights_scene::{Transport, Visibility};
 
 use crate::measurement::bakes::BakeCost;
 
@@ -13,8 +12,6 @@ use crate::measurement::bakes::BakeCost;
 pub(crate) struct Measured {
     /// The picture.
     pub(crate) image: RadianceImage,
-    /// What was computed.
-    pub(crate) transport: Transport,
     /// Of what it was baked from.
     pub(crate) bake: BakeCost,
     /// Wall clock of `prepare`: pipelines, acceleration structures.
@@ -52,7 +49,6 @@ pub(crate) fn measure(
     let image = run.resolve()?;
     Ok(Measured {
         image,
-        transport: frame.transport,
         bake: bake.map_or_else(BakeCost::default, |(_, cost)| cost),
         prepare_seconds,
         step_seconds,
@@ -75,23 +71,5 @@ fn step_to_the_end(run: &mut dyn Run, look: Look<'_>) -> Result<Duration, Error>
         if progress.finished() {
             return Ok(elapsed);
         }
-    }
-}
-
-/// The visibility in a transport, where it is a choice.
-pub(crate) fn visibility(transport: Transport) -> Option<Visibility> {
-    match transport {
-        Transport::Indirect { bounces: 1, visibility } => Some(visibility),
-        _ => None,
-    }
-}
-
-/// The same transport with another visibility of its last segment, where it has one.
-pub(crate) fn with_visibility(transport: Transport, visibility: Visibility) -> Transport {
-    match transport {
-        Transport::Indirect { bounces: bounces @ 1, .. } => {
-            Transport::Indirect { bounces, visibility }
-        }
-        other => other,
     }
 }

@@ -15,3 +15,4 @@ pub(crate) mod scene_run;
 pub(crate) mod session;
 pub(crate) mod stage;
 pub(crate) mod time_budget;
+mod variant_run;

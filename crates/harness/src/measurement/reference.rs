@@ -1,30 +1,47 @@
 //! References of a scene, with the noise that is left in them.
 
-use std::path::{Path, PathBuf};
+mod files;
 
+use std::path::Path;
+
+use manylights_method::Run;
 use manylights_metrics::{RadianceImage, compare_display, compare_linear};
 use manylights_path_tracer as path_tracer;
-use manylights_scene::Visibility;
-use manylights_scene::{Camera, Scene};
+use manylights_scene::{Scene, Visibility};
 
 use crate::error::Failure;
 use crate::measurement::cell::Comparison;
-use crate::measurement::inputs::Inputs;
+use crate::measurement::inputs::ReferenceInputs;
+use crate::measurement::measure;
+use crate::measurement::stage::Stage;
 use crate::progress::Progress;
+use crate::question::experiment::{Experiment, REFERENCE_SEED};
+use crate::question::plan::Variant;
+use crate::question::references::{Reference, Source};
 
-/// A converged picture, as far as its samples go.
+/// What the pictures of a scene are compared with: the picture of the path tracer, converged as far as
+/// its samples go, or those of another method, one for each seed.
 pub(crate) struct SceneReference {
-    /// Of the last segment.
-    pub(crate) visibility: Visibility,
-    /// The mean of all samples.
-    pub(crate) image: RadianceImage,
-    /// Samples a pixel: at least what was asked for.
-    pub(crate) samples: u32,
+    /// Of the experiment.
+    pub(crate) name: String,
+    /// Who made it, with which parameters.
+    pub(crate) caption: String,
+    /// What it depends on; at least as many samples as were asked for.
+    pub(crate) inputs: ReferenceInputs,
+    pictures: Pictures,
     /// RMSE of radiance that noise alone causes.
     linear_floor: f64,
-    /// RMSE of sRGB values that noise alone causes.
+    /// RMSE of sRGB values that noise alone causes. A method that is the reference has none: its
+    /// picture is what is asked for, noise and all.
     pub(crate) display_floor: f64,
     exposure: f32,
+}
+
+enum Pictures {
+    /// Whatever the seed of what is compared with it.
+    One(RadianceImage),
+    /// By seed, in the experiment's order; there is one.
+    Seeds(Vec<(u64, RadianceImage)>),
 }
 
 impl SceneReference {
@@ -33,91 +50,160 @@ impl SceneReference {
     /// # Errors
     /// One line where the scene cannot be rendered or the reference is black.
     pub(crate) fn render(
-        scene: &Scene,
-        camera: &Camera,
-        settings: &path_tracer::Settings,
-        visibility: Visibility,
+        reference: &Reference,
+        experiment: &Experiment,
+        stage: &Stage<'_>,
         cache: &Path,
     ) -> Result<Self, Failure> {
+        let made = match &reference.source {
+            Source::Paths(visibility) => {
+                Self::trace(reference, *visibility, experiment, stage, cache)?
+            }
+            Source::Method(variant) => Self::by_method(reference, variant, experiment, stage)?,
+        };
+        // Nothing can be compared with a black reference: better said before the methods run.
+        for image in made.images() {
+            compare_linear(image, image).map_err(|error| at_scene(stage.scene, error))?;
+        }
+        Ok(made)
+    }
+
+    fn trace(
+        reference: &Reference,
+        visibility: Visibility,
+        experiment: &Experiment,
+        stage: &Stage<'_>,
+        cache: &Path,
+    ) -> Result<Self, Failure> {
+        let scene = stage.scene;
+        let settings = path_tracer::Settings {
+            transport: stage.frame(visibility, REFERENCE_SEED).transport,
+            resolution: stage.resolution,
+            seed: REFERENCE_SEED,
+            samples: experiment.scale.reference_samples,
+        };
         let label = format!("{} reference ({visibility}, {} spp)", scene.name, settings.samples);
         let mut progress = Progress::new(&label);
-        let reference = path_tracer::render(scene, camera, settings, Some(cache), &mut |at| {
+        let traced = path_tracer::render(scene, stage.camera, &settings, Some(cache), &mut |at| {
             progress.set(at.done, at.total);
         })
         .map_err(|error| at_scene(scene, error))?;
         drop(progress);
-        for note in &reference.notes {
+        for note in &traced.notes {
             eprintln!("{note}");
         }
-        let [a, b] = &reference.halves;
+        let [a, b] = traced.halves.map(|half| stage.completed(half));
         // Halves of n/2 samples differ by √2 times their own noise, which is √2 times that of their
         // mean: half the difference is the noise of the mean.
-        let display = compare_display(a, b, scene.exposure).map_err(|e| at_scene(scene, e))?;
-        // Nothing can be compared with a black reference: better said before the methods run.
-        compare_linear(&reference.image, &reference.image).map_err(|e| at_scene(scene, e))?;
+        let display = compare_display(&a, &b, scene.exposure).map_err(|e| at_scene(scene, e))?;
         Ok(Self {
-            visibility,
-            samples: reference.samples,
-            linear_floor: reference.noise_floor,
+            name: reference.name.clone(),
+            caption: samples_caption(traced.samples),
+            inputs: ReferenceInputs::Samples(traced.samples),
+            pictures: Pictures::One(stage.completed(traced.image)),
+            linear_floor: traced.noise_floor,
             display_floor: display.rmse / 2.0,
             exposure: scene.exposure,
-            image: reference.image,
         })
     }
 
-    /// Keeps the picture beside those of the cells of `out`, for reports.
-    ///
-    /// # Errors
-    /// One line where the file cannot be written.
-    pub(crate) fn write(&self, view: &str, out: &Path) -> Result<(), Failure> {
-        let samples = ("manylights.samples".to_owned(), self.samples.to_string());
-        let path = path(out, view, self.visibility);
-        self.image.write_exr(&path, &[samples]).map_err(Failure::input)
-    }
-
-    /// What [`Self::write`] kept, with the noise that a cell of these inputs was told of.
-    ///
-    /// # Errors
-    /// One line where the picture cannot be read.
-    pub(crate) fn read(
-        visibility: Visibility,
-        inputs: &Inputs,
-        comparison: Option<&Comparison>,
-        out: &Path,
+    fn by_method(
+        reference: &Reference,
+        variant: &Variant,
+        experiment: &Experiment,
+        stage: &Stage<'_>,
     ) -> Result<Self, Failure> {
-        let path = path(out, &inputs.view(), visibility);
+        let Variant { method, parameters, visibility, .. } = variant;
+        let scene = stage.scene;
+        let seeds = &experiment.scale.seeds;
+        let mut progress = Progress::new(&format!("{} reference {}", scene.name, reference.name));
+        let mut pictures = Vec::with_capacity(seeds.len());
+        for (done, &seed) in (0..).zip(seeds) {
+            progress.set(done, seeds.len() as u64);
+            let frame = stage.frame(*visibility, seed);
+            let all = &mut |_, _: f64, _: &mut dyn Run| Ok(());
+            let measured = measure::measure(*method, &frame, parameters, None, all)
+                .map_err(|error| of_method(scene, reference, error))?;
+            pictures.push((seed, stage.completed(measured.image)));
+        }
         Ok(Self {
-            visibility,
-            image: RadianceImage::read_exr(&path).map_err(Failure::input)?,
-            samples: inputs.references.get(&visibility.to_string()).copied().unwrap_or(0),
-            linear_floor: comparison.map_or(0.0, |comparison| comparison.linear_floor),
-            display_floor: comparison.map_or(0.0, |comparison| comparison.display_floor),
-            exposure: inputs.exposure,
+            name: reference.name.clone(),
+            caption: variant.label(),
+            inputs: ReferenceInputs::new(reference, 0),
+            pictures: Pictures::Seeds(pictures),
+            linear_floor: 0.0,
+            display_floor: 0.0,
+            exposure: scene.exposure,
         })
     }
 
-    /// Errors of a picture against this reference.
+    /// Refuses a method that declines the scene, before anything is rendered.
+    ///
+    /// # Errors
+    /// One line with the method's reason.
+    pub(crate) fn check(reference: &Reference, stage: &Stage<'_>) -> Result<(), Failure> {
+        let Source::Method(variant) = &reference.source else { return Ok(()) };
+        let frame = stage.frame(variant.visibility, 0);
+        match variant.method.prepare(&frame, &variant.parameters) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(of_method(stage.scene, reference, error)),
+        }
+    }
+
+    /// The picture that stands for the reference: of several, that of the experiment's first seed.
+    pub(crate) fn image(&self) -> &RadianceImage {
+        match &self.pictures {
+            Pictures::One(image) => image,
+            Pictures::Seeds(pictures) => &pictures[0].1,
+        }
+    }
+
+    /// What a picture of this seed is compared with.
+    pub(crate) fn image_for(&self, seed: u64) -> &RadianceImage {
+        match &self.pictures {
+            Pictures::One(image) => image,
+            Pictures::Seeds(pictures) => {
+                let same = pictures.iter().find(|(of, _)| *of == seed);
+                &same.expect("there is a picture for each seed of the experiment").1
+            }
+        }
+    }
+
+    fn images(&self) -> impl Iterator<Item = &RadianceImage> {
+        let (one, seeds) = match &self.pictures {
+            Pictures::One(image) => (Some(image), &[][..]),
+            Pictures::Seeds(pictures) => (None, pictures.as_slice()),
+        };
+        one.into_iter().chain(seeds.iter().map(|(_, image)| image))
+    }
+
+    /// Errors of a picture of this seed against this reference.
     ///
     /// # Errors
     /// Where pixels of the picture are not finite.
     pub(crate) fn compare(
         &self,
         image: &RadianceImage,
+        seed: u64,
     ) -> Result<Comparison, manylights_metrics::Error> {
+        let truth = self.image_for(seed);
         Ok(Comparison {
-            linear: compare_linear(image, &self.image)?,
-            display: compare_display(image, &self.image, self.exposure)?,
+            linear: compare_linear(image, truth)?,
+            display: compare_display(image, truth, self.exposure)?,
             linear_floor: self.linear_floor,
             display_floor: self.display_floor,
         })
     }
 }
 
-/// The picture of a reference among those of the cells.
-fn path(out: &Path, view: &str, visibility: Visibility) -> PathBuf {
-    out.join("cells").join(format!("{view}-reference-{visibility}.exr"))
+fn samples_caption(samples: u32) -> String {
+    format!("{samples} samples")
 }
 
 fn at_scene(scene: &Scene, error: impl std::fmt::Display) -> Failure {
     Failure::input(format!("reference of {}: {error}", scene.name))
+}
+
+fn of_method(scene: &Scene, reference: &Reference, error: impl std::fmt::Display) -> Failure {
+    Failure::input(format!("reference `{}` of {}: {error}", reference.name, scene.name))
 }

@@ -3,39 +3,39 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use manylights_method::{Bake, Error, Frame, Method, Parameters, Processor, Run};
+use manylights_method::{Error, Processor, Run};
 use manylights_metrics::RadianceImage;
-use manylights_path_tracer as path_tracer;
 use manylights_scene::Scene;
 
 use crate::error::Failure;
-use crate::measurement::bakes::{BakeCost, Origin, SceneHashes, Wanted};
-use crate::measurement::cell::{Cell, Checkpoint, Done, Outcome, image_sha256};
+use crate::measurement::bakes::SceneHashes;
+use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome, image_sha256};
 use crate::measurement::inputs::{self, Inputs};
-use crate::measurement::measure::{self, Look, Measured};
+use crate::measurement::measure::Measured;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::{SceneCells, image_path};
 use crate::measurement::session::Session;
 use crate::measurement::stage::Stage;
 use crate::progress::Progress;
-use crate::question::experiment::REFERENCE_SEED;
+use crate::question::experiment::Experiment;
 use crate::question::plan::{Turn, Variant, interleaved};
+use crate::question::references::Reference;
 
 /// One scene, seen by one camera, in the making.
 pub(crate) struct SceneRun<'s, 'a> {
     /// What all scenes share.
     pub(crate) session: &'s mut Session<'a>,
     /// The scene, ready.
-    pub(crate) stage: Stage<'s>,
+    pub(crate) stage: &'s Stage<'s>,
     /// Index into the experiment's cameras.
-    camera: usize,
+    pub(crate) camera: usize,
     /// Scene and camera, for people and files.
     view: String,
     /// Hash of the content of scene and camera.
     content: String,
     /// What bakes may depend on.
-    hashes: SceneHashes,
+    pub(crate) hashes: SceneHashes,
     /// What the pictures are compared with.
     pub(crate) references: &'s [SceneReference],
     /// Of each variant, the value of the cost parameter that its time budget was found to allow.
@@ -63,12 +63,13 @@ impl Session<'_> {
         let name = experiment.cameras()[camera];
         let view = inputs::view(&scene.name, name);
         let gpu = self.gpu.clone();
-        let stage = Stage::new(scene, name, experiment.scale.resolution, gpu.as_ref())?;
-        let references = self.references(scene, &stage)?;
+        let Experiment { transport, scale, references, .. } = experiment;
+        let stage = Stage::new(scene, name, *transport, scale.resolution, gpu.as_ref())?;
+        let render = |reference| SceneReference::render(reference, experiment, &stage, self.cache);
+        let references = references.iter().map(render).collect::<Result<Vec<_>, _>>()?;
         for reference in &references {
             reference.write(&view, self.out)?;
         }
-        let scale = &experiment.scale;
         let turns = interleaved(variants, &scale.seeds, scale.repetitions);
         let content = manylights_scene::content_hash(scene, stage.camera);
         let hashes = SceneHashes::new(scene);
@@ -79,7 +80,7 @@ impl Session<'_> {
         let amounts = self.replayed_amounts(scene, name);
         let mut run = SceneRun {
             session: self,
-            stage,
+            stage: &stage,
             camera,
             view: view.clone(),
             content,
@@ -95,18 +96,24 @@ impl Session<'_> {
         Ok(SceneCells { scene: view, camera, exposure: scene.exposure, references, cells })
     }
 
-    fn references(&self, scene: &Scene, stage: &Stage<'_>) -> Result<Vec<SceneReference>, Failure> {
-        let experiment = self.experiment;
-        let render = |&visibility| {
-            let settings = path_tracer::Settings {
-                transport: measure::with_visibility(experiment.transport, visibility),
-                resolution: experiment.scale.resolution,
-                seed: REFERENCE_SEED,
-                samples: experiment.scale.reference_samples,
-            };
-            SceneReference::render(scene, stage.camera, &settings, visibility, self.cache)
-        };
-        experiment.references.iter().map(render).collect()
+    /// Refuses references that cannot be made of a scene, before anything is rendered: methods that
+    /// decline it, direct light that is not exact.
+    ///
+    /// # Errors
+    /// One line with the reason.
+    pub(crate) fn check_references(&self, scene: &Scene) -> Result<(), Failure> {
+        let Experiment { transport, scale, references, .. } = self.experiment;
+        let only_paths = references.iter().all(Reference::is_path_traced);
+        if only_paths && *transport == transport.estimated() {
+            return Ok(());
+        }
+        for camera in self.experiment.cameras() {
+            let gpu = self.gpu.as_ref();
+            let stage = Stage::new(scene, camera, *transport, scale.resolution, gpu)?;
+            let check = |reference| SceneReference::check(reference, &stage);
+            references.iter().try_for_each(check)?;
+        }
+        Ok(())
     }
 }
 
@@ -148,10 +155,9 @@ impl SceneRun<'_, '_> {
     fn inputs(&self, variant: &Variant, turn: Turn) -> Inputs {
         let experiment = self.session.experiment;
         let camera = experiment.cameras()[self.camera];
-        let samples =
-            |reference: &SceneReference| (reference.visibility.to_string(), reference.samples);
+        let made = |reference: &SceneReference| (reference.name.clone(), reference.inputs.clone());
         Inputs {
-            references: self.references.iter().map(samples).collect(),
+            references: self.references.iter().map(made).collect(),
             seed: turn.seed,
             repetition: turn.repetition,
             ..Inputs::new(experiment, self.stage.scene, camera, &self.content, variant)
@@ -193,85 +199,23 @@ impl SceneRun<'_, '_> {
         }
     }
 
-    /// One run, with the amount of work that a time budget allows where there is one.
-    pub(crate) fn measure(
-        &mut self,
-        turn: Turn,
-        amount: Option<u64>,
-        look: Look<'_>,
-    ) -> Result<Measured, Error> {
-        self.with_bake(turn, amount, false, |method, frame, parameters, bake| {
-            measure::measure(method, frame, parameters, bake, look)
-        })
-    }
-
-    /// What a bake takes that is made for this alone; nothing where the method makes none.
-    pub(crate) fn measure_bake(
-        &mut self,
-        turn: Turn,
-        amount: Option<u64>,
-    ) -> Result<BakeCost, Error> {
-        self.with_bake(turn, amount, true, |_, _, _, bake| {
-            Ok(bake.map_or_else(BakeCost::default, |(_, cost)| cost))
-        })
-    }
-
-    /// Calls with all that a run of a variant needs; the bake is one that is at hand, if there is one
-    /// and it need not be made `anew`.
-    fn with_bake<T>(
-        &mut self,
-        turn: Turn,
-        amount: Option<u64>,
-        anew: bool,
-        call: impl FnOnce(
-            &dyn Method,
-            &Frame<'_>,
-            &Parameters,
-            Option<(&dyn Bake, BakeCost)>,
-        ) -> Result<T, Error>,
-    ) -> Result<T, Error> {
-        let Session { experiment, bakes, gpu, .. } = &mut *self.session;
-        let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
-        let transport = measure::with_visibility(experiment.transport, *visibility);
-        let set = |amount| parameters.with_count(method.cost_parameter(), amount);
-        let parameters = &amount.map_or_else(|| parameters.clone(), set);
-        let frame = self.stage.frame(transport, turn.seed);
-        let Some(baking) = method.baking() else { return call(*method, &frame, parameters, None) };
-        let origin = Origin {
-            scene: self.hashes.clone(),
-            seed: turn.seed,
-            amount: parameters.count(method.cost_parameter()),
-        };
-        let (variant, camera) = (turn.variant, self.camera);
-        let wanted = Wanted { variant, baking, parameters, origin, camera };
-        if anew {
-            bakes.forget(variant);
-        }
-        let bake = bakes.get(&wanted, &|place, bake| {
-            if place == camera {
-                return bake(&frame);
-            }
-            let name = experiment.cameras()[place];
-            let stage = Stage::new(frame.scene, name, frame.resolution, gpu.as_ref());
-            let stage = stage.map_err(|failure| Error::Failed(failure.to_string()))?;
-            bake(&stage.frame(transport, turn.seed))
-        })?;
-        call(*method, &frame, parameters, Some(bake))
-    }
-
     /// As [`Self::measure`], looked at whenever the work has doubled, where the method is progressive.
     fn measure_with_checkpoints(
         &mut self,
         turn: Turn,
     ) -> Result<(Measured, Vec<Checkpoint>), Error> {
         let method = self.session.experiment.variants[turn.variant].method;
-        let references = self.references;
+        let (stage, references) = (self.stage, self.references);
         let mut checkpoints = Vec::new();
         let mut next = 1;
         let mut look = |progress: manylights_method::Progress, step_seconds, run: &mut dyn Run| {
             if method.is_progressive() && progress.done >= next && !progress.finished() {
                 next = 2 * progress.done;
-                let display_rmse = display_rmse(references, &run.resolve()?)?;
+                let image = stage.completed(run.resolve()?);
+                let errors = compare(references, &image, turn.seed)
+                    .map_err(|error| Error::Failed(error.to_string()))?;
+                let rmse = |(name, errors): (String, Comparison)| (name, errors.display.rmse);
+                let display_rmse = errors.into_iter().map(rmse).collect();
                 checkpoints.push(Checkpoint { amount: progress.done, step_seconds, display_rmse });
             }
             Ok(())
@@ -323,19 +267,14 @@ impl SceneRun<'_, '_> {
         measured: Measured,
         checkpoints: Vec<Checkpoint>,
     ) -> Result<Done, manylights_metrics::Error> {
-        let Variant { method, parameters, .. } = &self.session.experiment.variants[turn.variant];
+        let Variant { method, parameters, visibility, .. } =
+            &self.session.experiment.variants[turn.variant];
         let asked = || parameters.count(method.cost_parameter());
-        let errors = self
-            .references
-            .iter()
-            .map(|reference| {
-                Ok((reference.visibility.to_string(), reference.compare(&measured.image)?))
-            })
-            .collect::<Result<_, manylights_metrics::Error>>()?;
+        let errors = compare(self.references, &measured.image, turn.seed)?;
         Ok(Done {
             amount: self.amounts[turn.variant].unwrap_or_else(asked),
             checkpoints,
-            visibility: measure::visibility(measured.transport).map(|v| v.to_string()),
+            visibility: self.stage.transport.visibility().map(|_| visibility.to_string()),
             bake_shared: self.session.bakes.tell(&measured.bake),
             bake_seconds: measured.bake.seconds,
             bake_pass_seconds: measured.bake.pass_seconds,
@@ -371,15 +310,15 @@ impl SceneRun<'_, '_> {
     }
 }
 
-fn display_rmse(
+/// Errors of a picture of this seed, by name of the reference.
+fn compare(
     references: &[SceneReference],
     image: &RadianceImage,
-) -> Result<BTreeMap<String, f64>, Error> {
-    let rmse = |reference: &SceneReference| {
-        let comparison = reference.compare(image).map_err(|e| Error::Failed(e.to_string()))?;
-        Ok((reference.visibility.to_string(), comparison.display.rmse))
-    };
-    references.iter().map(rmse).collect()
+    seed: u64,
+) -> Result<BTreeMap<String, Comparison>, manylights_metrics::Error> {
+    let errors =
+        |reference: &SceneReference| Ok((reference.name.clone(), reference.compare(image, seed)?));
+    references.iter().map(errors).collect()
 }
 
 /// Whether a repetition gave other bits than the first run of the same cell.

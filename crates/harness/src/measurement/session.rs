@@ -13,6 +13,7 @@ use crate::measurement::scene_cells::{SceneCells, image_path};
 use crate::measurement::stage;
 use crate::output;
 use crate::question::experiment::Experiment;
+use crate::question::references::Source;
 
 /// What all scenes of a run share.
 pub(crate) struct Session<'a> {
@@ -49,7 +50,12 @@ impl<'a> Session<'a> {
     ) -> Result<Self, Failure> {
         output::check_directory(&out.join("cells"), "--out")?;
         let journal = Journal::open(out)?;
-        let methods = experiment.variants.iter().map(|variant| variant.method);
+        let referred =
+            experiment.references.iter().filter_map(|reference| match &reference.source {
+                Source::Paths(_) => None,
+                Source::Method(variant) => Some(variant.method),
+            });
+        let methods = experiment.variants.iter().map(|variant| variant.method).chain(referred);
         let gpu = stage::open_gpu(methods, adapter)?;
         let on_gpu = Provenance::here(gpu.as_ref());
         let on_cpu = Provenance { adapter: None, ..on_gpu.clone() };

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use manylights_gpu::{Gpu, GpuFrame};
 use manylights_method::{Frame, Method, Processor};
-use manylights_scene::Transport;
-use manylights_scene::{Camera, Scene};
+use manylights_metrics::RadianceImage;
+use manylights_path_tracer as path_tracer;
+use manylights_scene::{Camera, Scene, Transport, Visibility};
 
 use crate::error::Failure;
 
@@ -41,35 +42,61 @@ pub(crate) struct Stage<'a> {
     pub(crate) camera: &'a Camera,
     /// Width, height in pixels.
     pub(crate) resolution: [u32; 2],
+    /// Light paths of all pictures.
+    pub(crate) transport: Transport,
     gpu: Option<GpuFrame>,
+    /// The part of all pictures that no method estimates.
+    direct: Option<RadianceImage>,
 }
 
 impl<'a> Stage<'a> {
-    /// Fills the adapter, where there is one.
+    /// Fills the adapter, where there is one, and computes the direct light that `direct+indirect-1`
+    /// adds to every picture alike.
     ///
     /// # Errors
-    /// One line where the camera is unknown or the adapter cannot hold the scene.
+    /// One line where the camera is unknown, the adapter cannot hold the scene or its direct light is
+    /// not exact.
     pub(crate) fn new(
         scene: &'a Scene,
         camera: Option<&str>,
+        transport: Transport,
         resolution: [u32; 2],
         gpu: Option<&Gpu>,
     ) -> Result<Self, Failure> {
         let camera = scene.camera(camera).map_err(Failure::input)?;
         let gpu = gpu.map(|gpu| GpuFrame::new(gpu, scene, camera, resolution)).transpose();
-        Ok(Self { scene, camera, resolution, gpu: gpu.map_err(Failure::input)? })
+        let gpu = gpu.map_err(Failure::input)?;
+        let direct = match transport {
+            Transport::DirectAndIndirect { .. } => Some(
+                path_tracer::direct_light(scene, camera, resolution)
+                    .map_err(|error| Failure::input(format!("{}: {error}", scene.name)))?,
+            ),
+            Transport::Direct { .. } | Transport::Indirect { .. } | Transport::All => None,
+        };
+        Ok(Self { scene, camera, resolution, transport, gpu, direct })
     }
 
-    /// One picture to make.
-    pub(crate) fn frame(&self, transport: Transport, seed: u64) -> Frame<'_> {
+    /// One picture to estimate; [`Self::completed`] makes it whole.
+    pub(crate) fn frame(&self, visibility: Visibility, seed: u64) -> Frame<'_> {
         Frame {
             scene: self.scene,
             camera: self.camera,
             resolution: self.resolution,
-            transport,
+            transport: self.transport.with_visibility(visibility).estimated(),
             seed,
             gpu: self.gpu.as_ref(),
         }
+    }
+
+    /// An estimate together with what is added to all pictures alike, outside every clock.
+    pub(crate) fn completed(&self, mut estimate: RadianceImage) -> RadianceImage {
+        if let Some(direct) = &self.direct {
+            let direct = direct.pixels.as_flattened();
+            for (value, direct) in estimate.pixels.as_flattened_mut().iter_mut().zip(direct) {
+                *value += direct;
+            }
+        }
+        estimate
     }
 }
 

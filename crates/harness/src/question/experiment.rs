@@ -7,7 +7,7 @@
 //! cameras = ["front", "side"]        # of each scene, in the order in which bakes grow; left out: its
 //!                                    # first; a listed one's pictures are named SCENE-CAMERA
 //! transport = "indirect-1"
-//! references = ["traced", "ignored"] # visibility of their last segment; the truth first
+//! references = ["traced", "ignored"] # path traced, by visibility; the truth first: ranks are by it
 //! errors = [0.02]                    # the time to reach these RMSEs is read off the curves
 //! columns = ["counts", "time", "rmse"] # of the table; see columns.rs
 //! [[methods]]                        # any number; all combinations of the values run
@@ -40,13 +40,23 @@
 //! values = { rmse = 0.01 }           # of sRGB values; "time_ratio" is to the baseline
 //! ```
 //!
+//! A reference may be the picture of another method, of the same seed, instead; all are tables then:
+//!
+//! ```toml
+//! [[references]]
+//! name = "per-pixel"                 # of our choice
+//! method = { id = "…", parameters = { lights = 4096 }, visibility = "ignored" }
+//! [[references]]
+//! name = "traced"                    # path traced
+//! ```
+//!
 //! A curve runs along the first parameter, in the method's own order, that has a list of values,
 //! else along the method's cost parameter; the others tell curves apart.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use manylights_scene::{Transport, Visibility};
+use manylights_scene::Transport;
 use serde::Deserialize;
 
 use crate::names;
@@ -54,6 +64,7 @@ use crate::question::columns::Column;
 use crate::question::crops::Crop;
 use crate::question::plan::{Budget, Variant};
 use crate::question::published::{self, Published};
+use crate::question::references::{self, Reference};
 use crate::question::settings;
 use crate::question::sweep::Entry;
 use crate::registry::Methods;
@@ -78,7 +89,7 @@ pub(crate) struct Experiment {
     /// The light paths of all pictures.
     pub(crate) transport: Transport,
     /// The references, the truth first: ranks are by it.
-    pub(crate) references: Vec<Visibility>,
+    pub(crate) references: Vec<Reference>,
     /// Methods with their parameters, all combinations written out.
     pub(crate) variants: Vec<Variant>,
     /// Index into `variants`: what ratios refer to.
@@ -143,7 +154,7 @@ struct File {
     #[serde(default)]
     cameras: Vec<String>,
     transport: String,
-    references: Vec<String>,
+    references: Vec<toml::Value>,
     methods: Vec<Entry>,
     baseline: Option<Entry>,
     #[serde(default)]
@@ -217,13 +228,14 @@ fn parse(text: &str, profile: Profile, methods: Methods) -> Result<Experiment, S
     let mut variants = Vec::new();
     for entry in &file.methods {
         for variant in entry.variants(methods, &times)? {
+            variant.check_visibility(transport).map_err(|reason| format!("methods: {reason}"))?;
             if variants.contains(&variant) {
                 return Err(format!("methods: `{}` is listed twice", variant.label()));
             }
             variants.push(variant);
         }
     }
-    let references = references(&file.references, transport)?;
+    let references = references::parse(&file.references, transport, methods)?;
     if file.errors.iter().any(|error| !(error.is_finite() && *error > 0.0)) {
         return Err("errors: RMSEs are positive numbers".into());
     }
@@ -296,39 +308,16 @@ fn times(written: &[Time]) -> Result<Vec<Budget>, String> {
         .collect()
 }
 
-fn references(texts: &[String], transport: Transport) -> Result<Vec<Visibility>, String> {
-    let mut references = Vec::new();
-    for text in texts {
-        let visibility = text.parse()?;
-        if visibility == Visibility::Ignored && !has_last_segment(transport) {
-            return Err(format!("references: `ignored` exists for indirect-1, not {transport}"));
-        }
-        if references.contains(&visibility) {
-            return Err(format!("references: `{text}` is listed twice"));
-        }
-        references.push(visibility);
-    }
-    Ok(references)
-}
-
-/// Whether visibility of the last segment is a choice.
-pub(crate) fn has_last_segment(transport: Transport) -> bool {
-    matches!(transport, Transport::Indirect { bounces: 1, .. })
-}
-
 fn baseline(
     entry: Option<&Entry>,
     methods: Methods,
     variants: &[Variant],
 ) -> Result<usize, String> {
     let Some(entry) = entry else { return Ok(0) };
-    let wanted = entry.variants(methods, &[]).map_err(|reason| format!("baseline: {reason}"))?;
-    let [wanted] = wanted.as_slice() else {
-        return Err("baseline: parameters must be single values".into());
-    };
+    let wanted = entry.single(methods).map_err(|reason| format!("baseline: {reason}"))?;
     variants
         .iter()
-        .position(|variant| variant == wanted)
+        .position(|variant| *variant == wanted)
         .ok_or_else(|| format!("baseline: `{}` is not among the methods", wanted.label()))
 }
 
@@ -338,15 +327,7 @@ fn mend(text: &str, error: &toml::de::Error) -> String {
         let before = text.get(..span.start).unwrap_or(text);
         format!("line {}: ", before.matches('\n').count() + 1)
     });
-    let message = error.message();
-    // serde words it: unknown field `a`, expected one of `b`, `c`
-    let reason = if message.starts_with("unknown field") {
-        let mut quoted = message.split('`').skip(1).step_by(2);
-        let key = quoted.next().unwrap_or_default();
-        names::unknown("key", key, quoted)
-    } else {
-        message.lines().collect::<Vec<_>>().join("; ")
-    };
+    let reason = names::mended(error.message());
     format!("{}{reason}", line.unwrap_or_default())
 }
 
@@ -385,7 +366,48 @@ seeds = [1]
         let labels: Vec<_> = experiment.variants.iter().map(Variant::label).collect();
         assert_eq!(labels, ["reference samples=1", "reference samples=4", "reference samples=16"]);
         assert_eq!(experiment.baseline, 1);
-        assert_eq!(experiment.references, [Visibility::Traced, Visibility::Ignored]);
+        let names: Vec<_> = experiment.references.iter().map(|r| r.name.as_str()).collect();
+        assert_eq!(names, ["traced", "ignored"]);
+        assert!(experiment.references.iter().all(Reference::is_path_traced));
+    }
+
+    #[test]
+    fn references_are_path_traced_or_by_a_method() {
+        let written = r#"references = [
+            { name = "many-paths", method = { id = "reference", parameters = { samples = 64 } } },
+            "traced",
+        ]"#;
+        let text = GOOD.replace("references = [\"traced\", \"ignored\"]", written);
+        let experiment = parse(&text, Profile::Quick, METHODS).expect("good");
+        let described: Vec<_> = experiment
+            .references
+            .iter()
+            .map(|r| format!("{}: {}", r.name, r.description(experiment.transport, 16)))
+            .collect();
+        assert_eq!(
+            described,
+            [
+                "many-paths: reference samples=64, of the same seed",
+                "traced: path traced, visibility traced, 16 samples a pixel",
+            ]
+        );
+        assert!(!experiment.references[0].is_path_traced());
+        let method = "{ id = \"reference\" }";
+        for (name, method, said) in [
+            ("\"A B\"", method, "lower-case letters"),
+            ("\"\"", method, "lower-case letters"),
+            ("\"traced\"", method, "choose another name"),
+            ("\"x\"", "{ id = \"refernce\" }", "did you mean `reference`?"),
+            ("\"x\"", "{ id = \"reference\", parameters = { samples = [1, 2] } }", "single"),
+            ("\"x\"", "{ id = \"reference\", budget = \"time\" }", "set its parameters"),
+            ("\"x\"", "{ id = \"reference\", colour = 1 }", "unknown key `colour`"),
+            ("1", method, "expected a string"),
+        ] {
+            let written = format!("references = [{{ name = {name}, method = {method} }}]");
+            let text = GOOD.replace("references = [\"traced\", \"ignored\"]", &written);
+            let reason = parse(&text, Profile::Quick, METHODS).expect_err(said);
+            assert!(reason.contains(said) && reason.lines().count() == 1, "{reason} / {said}");
+        }
     }
 
     #[test]
@@ -401,7 +423,15 @@ seeds = [1]
             ("seeds = [1]", "seeds = []", "one seed"),
             ("repetitions = 2", "repetitions = 0", "one repetition"),
             ("\"ignored\"", "\"forgotten\"", "use traced or ignored"),
-            ("indirect-1", "indirect-2", "exists for indirect-1"),
+            ("\"ignored\"", "\"traced\"", "`traced` is listed twice"),
+            ("\"ignored\"", "3", "neither a name nor a table"),
+            ("indirect-1", "indirect-2", "a choice of direct, indirect-1 and"),
+            ("indirect-1", "direct+indirect-2", "unknown transport"),
+            (
+                "samples = [1, 4, 16] }",
+                "samples = 1 }\nvisibility = \"sometimes\"",
+                "use traced or ignored",
+            ),
             ("indirect-1", "everything", "unknown transport"),
             ("samples = 4 ", "samples = 5 ", "not among the methods"),
             ("samples = 4 ", "samples = [1, 4]", "single values"),

@@ -6,5 +6,6 @@ pub(crate) mod experiment;
 pub(crate) mod jobs;
 pub(crate) mod plan;
 pub(crate) mod published;
+pub(crate) mod references;
 pub(crate) mod settings;
 pub(crate) mod sweep;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use manylights_method::{Method, ParameterKind, Parameters};
-use manylights_scene::Visibility;
+use manylights_scene::{Transport, Visibility};
 use serde::{Deserialize, Serialize};
 
 use crate::show::numbers::milliseconds;
@@ -124,6 +124,17 @@ impl Variant {
         Some(self.visibility).filter(|&visibility| visibility != self.method.visibility())
     }
 
+    /// Refuses a visibility where the transport leaves no choice.
+    ///
+    /// # Errors
+    /// One line.
+    pub(crate) fn check_visibility(&self, transport: Transport) -> Result<(), String> {
+        if transport.visibility().is_none() && self.unusual_visibility().is_some() {
+            return Err(format!("`{}`: {}", self.label(), no_choice(transport)));
+        }
+        Ok(())
+    }
+
     fn text(&self, wanted: impl Fn(&str) -> bool) -> String {
         let default = Parameters::new(self.method.parameters(), []).expect("nothing to refuse");
         let mut words = vec![self.method.id().to_owned()];
@@ -135,6 +146,13 @@ impl Variant {
         words.extend(self.unusual_visibility().map(|chosen| format!("visibility={chosen}")));
         words.join(" ")
     }
+}
+
+/// Why visibility cannot be chosen.
+pub(crate) fn no_choice(transport: Transport) -> String {
+    format!(
+        "visibility is a choice of direct, indirect-1 and direct+indirect-1, not of {transport}"
+    )
 }
 
 impl PartialEq for Variant {

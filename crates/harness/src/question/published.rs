@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use manylights_metrics::{METRICS, MetricInfo};
-use manylights_scene::Visibility;
 use serde::Deserialize;
 
 use crate::names;
 use crate::question::plan::{Budget, Variant};
+use crate::question::references::Reference;
 use crate::question::sweep;
 use crate::registry::Methods;
 
@@ -27,10 +27,10 @@ pub(crate) struct Published {
 }
 
 /// What a published number measures.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(crate) enum Quantity {
-    /// An error of sRGB values against a reference.
-    Error(&'static MetricInfo, Visibility),
+    /// An error of sRGB values against the reference of this name.
+    Error(&'static MetricInfo, String),
     /// Time as a multiple of the baseline's: what of a paper's times holds on another machine.
     TimeRatio,
 }
@@ -41,7 +41,7 @@ impl Quantity {
     /// As the experiment file says it: metric and reference.
     pub(crate) fn names(&self) -> [String; 2] {
         match self {
-            Self::Error(metric, reference) => [metric.id.to_owned(), reference.to_string()],
+            Self::Error(metric, reference) => [metric.id.to_owned(), reference.clone()],
             Self::TimeRatio => [Self::TIME_RATIO.to_owned(), String::new()],
         }
     }
@@ -70,7 +70,7 @@ impl Entry {
         methods: Methods,
         variants: &[Variant],
         times: &[Budget],
-        references: &[Visibility],
+        references: &[Reference],
     ) -> Result<Vec<Published>, String> {
         let at = |reason: String| format!("published ({}): {reason}", self.source);
         let [wanted] = &self.method.variants(methods, times).map_err(at)?[..] else {
@@ -87,7 +87,7 @@ impl Entry {
         self.values.iter().map(number).collect()
     }
 
-    fn quantity(&self, metric: &str, references: &[Visibility]) -> Result<Quantity, String> {
+    fn quantity(&self, metric: &str, references: &[Reference]) -> Result<Quantity, String> {
         if metric == Quantity::TIME_RATIO {
             return Ok(Quantity::TimeRatio);
         }
@@ -95,10 +95,9 @@ impl Entry {
         let known = METRICS.iter().find(|known| known.id == metric);
         let known = known.ok_or_else(|| names::unknown("metric", metric, ids))?;
         let reference = self.reference.as_deref().ok_or("an error needs a `reference`")?;
-        let reference = reference.parse()?;
-        if !references.contains(&reference) {
+        if !references.iter().any(|known| known.name == reference) {
             return Err(format!("`{reference}` is not among the references"));
         }
-        Ok(Quantity::Error(known, reference))
+        Ok(Quantity::Error(known, reference.to_owned()))
     }
 }

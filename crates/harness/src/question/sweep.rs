@@ -91,6 +91,20 @@ impl Entry {
         Ok(variants)
     }
 
+    /// The one variant of an entry without lists and budgets.
+    ///
+    /// # Errors
+    /// As [`Self::variants`], and for an entry that stands for several.
+    pub(crate) fn single(&self, methods: Methods) -> Result<Variant, String> {
+        if matches!(self.budget, Kind::Time) {
+            return Err(format!("`{}` has a time budget: set its parameters instead", self.id));
+        }
+        match <[Variant; 1]>::try_from(self.variants(methods, &[])?) {
+            Ok([variant]) => Ok(variant),
+            Err(_) => Err("parameters and visibility must be single values".into()),
+        }
+    }
+
     fn visibilities(&self, own: Visibility) -> Result<Vec<Visibility>, String> {
         let texts = match &self.visibility {
             None => return Ok(vec![own]),

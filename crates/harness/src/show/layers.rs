@@ -1,20 +1,21 @@
 //! `cells/SCENE-KEY.layers.exr`: the picture of a variant, first seed, taken apart for viewers such as
 //! tev.
 //!
-//! | transport | `image` | `direct` | `indirect` | `error` |
-//! |---|---|---|---|---|
-//! | indirect-K | direct + indirect | path tracer | the method's picture | indirect − reference |
-//! | all | the method's picture | path tracer | image − direct | image − reference |
-//! | direct | the method's picture | the same | absent | image − reference |
+//! | transport | `image` | `direct` | `emission` | `indirect` | `error` |
+//! |---|---|---|---|---|---|
+//! | indirect-K | the sum of the three | path tracer | path tracer | the method's picture | indirect − reference |
+//! | direct+indirect-1 | the method's picture | path tracer | absent | image − direct | image − reference |
+//! | all | the method's picture | path tracer | path tracer | the rest of the image | image − reference |
+//! | direct | the method's picture | the same | absent | absent | image − reference |
 //!
+//! Emission is what the camera sees directly; the layer is absent where nothing emits, too.
 //! The reference is the first of the experiment. All layers are radiance in W·m⁻²·sr⁻¹.
 
 use std::path::Path;
 
 use manylights_metrics::{RadianceImage, write_exr_layers};
 use manylights_path_tracer as path_tracer;
-use manylights_scene::Scene;
-use manylights_scene::Transport;
+use manylights_scene::{Scene, Transport, Visibility};
 
 use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
@@ -34,23 +35,18 @@ pub(crate) fn write(
     answer: &SceneAnswer,
     [cache, out]: [&Path; 2],
 ) -> Result<(), Failure> {
-    let direct = match experiment.transport {
-        Transport::Direct => None,
-        Transport::All | Transport::Indirect { .. } => {
-            Some(render_direct(experiment, scene, cells.camera.as_deref(), cache)?)
-        }
-    };
-    let truth = &cells.references[0].image;
+    let parts = parts(experiment, scene, cells.camera.as_deref(), cache)?;
+    let truth = cells.references[0].image();
     for medians in answer.rows.iter().filter_map(|row| row.medians()) {
         let path = image_path(out, &cells.scene, &medians.key);
         let image = RadianceImage::read_exr(&path.with_extension("exr")).map_err(Failure::input)?;
         let error = combined(&image, truth, |x, r| x - r);
-        let layers = layers(experiment.transport, image, direct.as_ref(), error);
+        let layers = layers(experiment.transport, image, &parts, error);
         let layers: Vec<_> = layers.iter().map(|(name, image)| (*name, image)).collect();
         let attributes = [
             ("manylights.cell".to_owned(), medians.key.clone()),
             ("manylights.transport".to_owned(), experiment.transport.to_string()),
-            ("manylights.reference".to_owned(), cells.references[0].visibility.to_string()),
+            ("manylights.reference".to_owned(), cells.references[0].name.clone()),
         ];
         write_exr_layers(&path.with_extension("layers.exr"), &layers, &attributes)
             .map_err(Failure::input)?;
@@ -58,24 +54,52 @@ pub(crate) fn write(
     Ok(())
 }
 
+/// A layer.
+type Layer = (&'static str, RadianceImage);
+
+/// The parts that come from the path tracer.
+fn parts(
+    experiment: &Experiment,
+    scene: &Scene,
+    camera: Option<&str>,
+    cache: &Path,
+) -> Result<Vec<Layer>, Failure> {
+    if matches!(experiment.transport, Transport::Direct { .. }) {
+        return Ok(Vec::new());
+    }
+    let mut parts = vec![("direct", render_direct(experiment, scene, camera, cache)?)];
+    if scene.emissive_triangles().next().is_some() {
+        let camera = scene.camera(camera).map_err(Failure::input)?;
+        let resolution = experiment.scale.resolution;
+        parts.push(("emission", path_tracer::seen_emission(scene, camera, resolution)));
+    }
+    Ok(parts)
+}
+
 fn layers(
     transport: Transport,
     image: RadianceImage,
-    direct: Option<&RadianceImage>,
+    parts: &[Layer],
     error: RadianceImage,
-) -> Vec<(&'static str, RadianceImage)> {
-    let error = ("error", error);
-    let Some(direct) = direct else {
-        return vec![("image", image.clone()), ("direct", image), error];
+) -> Vec<Layer> {
+    let with_parts = |f: fn(f32, f32) -> f32| {
+        let start = image.clone();
+        parts.iter().fold(start, |sum, (_, part)| combined(&sum, part, f))
     };
-    let [whole, indirect] = match transport {
-        Transport::Indirect { .. } => [combined(&image, direct, |i, d| i + d), image],
-        Transport::All | Transport::Direct => {
-            let indirect = combined(&image, direct, |x, d| x - d);
-            [image, indirect]
+    let [whole, rest] = match transport {
+        Transport::Direct { .. } => {
+            return vec![("image", image.clone()), ("direct", image), ("error", error)];
+        }
+        Transport::Indirect { .. } => [with_parts(|i, part| i + part), image],
+        Transport::DirectAndIndirect { .. } | Transport::All => {
+            let rest = with_parts(|x, part| x - part);
+            [image, rest]
         }
     };
-    vec![("image", whole), ("direct", direct.clone()), ("indirect", indirect), error]
+    let mut layers = vec![("image", whole)];
+    layers.extend(parts.iter().cloned());
+    layers.extend([("indirect", rest), ("error", error)]);
+    layers
 }
 
 /// A picture made of two of the same size, component by component.
@@ -97,7 +121,7 @@ fn render_direct(
     // Point-like lights are summed exactly: more samples would give the same picture.
     let is_exact = scene.emissive_triangles().next().is_none();
     let settings = path_tracer::Settings {
-        transport: Transport::Direct,
+        transport: Transport::Direct { visibility: Visibility::Traced },
         resolution: experiment.scale.resolution,
         seed: REFERENCE_SEED,
         samples: if is_exact { 1 } else { experiment.scale.reference_samples },
@@ -121,24 +145,27 @@ mod tests {
         RadianceImage { width: 1, height: 1, pixels: vec![[value; 3]] }
     }
 
-    /// Names and values of the layers of a picture of radiance 3 with direct light 1.
-    fn values(transport: &str) -> Vec<(&'static str, f32)> {
+    /// Names and values of the layers of a picture of radiance 3 with direct light 1 and, where it
+    /// `shines`, emission 0.5.
+    fn values(transport: &str, shines: bool) -> Vec<(&'static str, f32)> {
         let transport = transport.parse().expect("a transport");
-        let direct = (transport != Transport::Direct).then(|| flat(1.0));
-        let layers = layers(transport, flat(3.0), direct.as_ref(), flat(-0.5));
+        let mut parts = vec![("direct", flat(1.0))];
+        parts.extend(shines.then(|| ("emission", flat(0.5))));
+        let layers = layers(transport, flat(3.0), &parts, flat(-0.5));
         layers.iter().map(|(name, image)| (*name, image.pixels[0][0])).collect()
     }
 
     #[test]
     fn layers_add_up() {
-        assert_eq!(
-            values("indirect-1"),
-            [("image", 4.0), ("direct", 1.0), ("indirect", 3.0), ("error", -0.5)]
-        );
-        assert_eq!(
-            values("all"),
-            [("image", 3.0), ("direct", 1.0), ("indirect", 2.0), ("error", -0.5)]
-        );
-        assert_eq!(values("direct"), [("image", 3.0), ("direct", 3.0), ("error", -0.5)]);
+        let error = ("error", -0.5);
+        let [direct, emission] = [("direct", 1.0), ("emission", 0.5)];
+        let [image, indirect] = [("image", 4.5), ("indirect", 3.0)];
+        assert_eq!(values("indirect-1", true), [image, direct, emission, indirect, error]);
+        assert_eq!(values("indirect-1", false), [("image", 4.0), direct, indirect, error]);
+        let [image, rest] = [("image", 3.0), ("indirect", 1.5)];
+        assert_eq!(values("all", true), [image, direct, emission, rest, error]);
+        let both = values("direct+indirect-1", false);
+        assert_eq!(both, [image, direct, ("indirect", 2.0), error]);
+        assert_eq!(values("direct", false), [image, ("direct", 3.0), error]);
     }
 }

@@ -15,6 +15,11 @@ pub(crate) fn short(value: f64) -> String {
     format!("{rounded:.*}", digits.max(0) as usize)
 }
 
+/// How many times `base` a value is, as [`short`]; a dash where the base is nothing.
+pub(crate) fn ratio(value: f64, base: f64) -> String {
+    if base == 0.0 { "—".to_owned() } else { short(value / base) }
+}
+
 /// Milliseconds of a time in seconds.
 pub(crate) fn milliseconds(seconds: f64) -> String {
     short(1e3 * seconds)
@@ -30,6 +35,7 @@ mod tests {
         assert_eq!(texts, ["0", "0.0123", "1.00", "98.8", "1230", "1.50e7", "2.00e-6", "-0.500"]);
         assert_eq!([0.099_999, 0.1, 999.9].map(short), ["0.100", "0.100", "1000"]);
         assert_eq!(short(f64::INFINITY), "inf");
+        assert_eq!([ratio(3.0, 2.0), ratio(0.0, 0.0), ratio(1.0, 0.0)], ["1.50", "—", "—"]);
         assert_eq!(milliseconds(0.0125), "12.5");
     }
 }

@@ -45,7 +45,7 @@ pub(crate) fn png(
     let entries = entries(experiment, cells, answer, out)?;
     let images: Vec<_> = entries.iter().map(|entry| &entry.image).collect();
     let scale = error_scale(&images, &cells.references);
-    let RadianceImage { width, height, .. } = cells.references[0].image;
+    let &RadianceImage { width, height, .. } = cells.references[0].image();
     let crops: Vec<Rectangle> = experiment
         .crops
         .iter()
@@ -78,9 +78,7 @@ fn entries(
         let (Some(medians), true) = (row.medians(), last == Some(row.variant)) else { continue };
         let path = image_path(out, &cells.scene, &medians.key).with_extension("exr");
         let image = RadianceImage::read_exr(&path).map_err(Failure::input)?;
-        let rmse = |reference: &SceneReference| {
-            medians.errors[&reference.visibility.to_string()].display.rmse
-        };
+        let rmse = |reference: &SceneReference| medians.errors[&reference.name].display.rmse;
         let rmse = cells.references.iter().map(rmse).collect();
         entries.push(Entry { label: variant.label(), image, rmse });
     }
@@ -93,7 +91,7 @@ fn shown(image: &RadianceImage, exposure: f32) -> RgbImage {
 
 /// The scale of the errors, then the methods.
 fn pictures(cells: &SceneCells, entries: &[Entry], crops: &[Rectangle], scale: f32) -> Vec<Tile> {
-    let RadianceImage { width, height, .. } = cells.references[0].image;
+    let &RadianceImage { width, height, .. } = cells.references[0].image();
     let key = Tile {
         caption: ["mean |error| of R, G, B".into(), format!("0 .. {scale} W/m2/sr")],
         picture: shown(&bar(width, height, scale), 1.0),
@@ -127,7 +125,7 @@ fn enlarged_crops(
         draw_frame(&mut picture, [0, 0, wide, high], nth);
         Tile { caption: [format!("crop {}", nth + 1), second], picture }
     };
-    let reference = tile(&truth.image, format!("REFERENCE {}", truth.visibility));
+    let reference = tile(truth.image(), format!("REFERENCE {}", truth.name));
     let methods = entries.iter().map(|entry| tile(&entry.image, entry.label.clone()));
     std::iter::once(reference).chain(methods).collect()
 }
@@ -141,18 +139,15 @@ fn errors(
     scale: f32,
 ) -> Vec<Tile> {
     let truth = Tile {
-        caption: [
-            format!("REFERENCE {}", reference.visibility),
-            format!("{} samples", reference.samples),
-        ],
-        picture: shown(&reference.image, cells.exposure),
+        caption: [format!("REFERENCE {}", reference.name), reference.caption.clone()],
+        picture: shown(reference.image(), cells.exposure),
     };
     let errors = entries.iter().map(|entry| Tile {
         caption: [
-            format!("error to {}", reference.visibility),
+            format!("error to {}", reference.name),
             format!("sRGB RMSE {}", short(entry.rmse[index])),
         ],
-        picture: shown(&false_color(&entry.image, &reference.image, scale), 1.0),
+        picture: shown(&false_color(&entry.image, reference.image(), scale), 1.0),
     });
     std::iter::once(truth).chain(errors).collect()
 }

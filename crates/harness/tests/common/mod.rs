@@ -22,6 +22,11 @@ fn command(arguments: &[&str]) -> Command {
     command
 }
 
+/// As [`manylights`], with the adapter opened for these limits.
+pub(crate) fn manylights_within(limits: &str, arguments: &[&str]) -> Output {
+    command(arguments).env("MANYLIGHTS_LIMITS", limits).output().expect("the program starts")
+}
+
 /// As [`manylights`], on a machine of this name.
 pub(crate) fn manylights_on(machine: &str, arguments: &[&str]) -> Output {
     command(arguments).env("MANYLIGHTS_MACHINE", machine).output().expect("the program starts")

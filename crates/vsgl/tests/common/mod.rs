@@ -73,7 +73,7 @@ pub(crate) fn render_scene(
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
     let passes: Vec<_> = run.pass_times().iter().map(|time| time.pass).collect();
-    assert_eq!(passes, ["distribute", "filter", "gather"]);
+    assert_eq!(passes, ["distribute", "filter", "place", "gather", "submit"]);
 
     let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("read-back");
     let (lights, _) = gaussian_lights(&on_gpu, scene, settings, seed).expect("lights");

@@ -48,7 +48,7 @@ pub(crate) fn render(scene: &str, resolution: [u32; 2], settings: &Settings, see
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
     let passes: Vec<_> = run.pass_times().iter().map(|time| time.pass).collect();
-    assert_eq!(passes, ["distribute", "radius", "gather"]);
+    assert_eq!(passes, ["distribute", "radius", "place", "gather", "submit"]);
 
     let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("read-back");
     let (lights, _) = virtual_spheres(&on_gpu, &scene, settings, seed).expect("lights");

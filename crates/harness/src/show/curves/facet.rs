@@ -70,9 +70,9 @@ impl Facet {
     ) -> Vec<Self> {
         let mut facets = Vec::new();
         for scene in scenes {
-            for reference in experiment.references.iter().map(ToString::to_string) {
+            for reference in experiment.references.iter().map(|reference| &reference.name) {
                 for against in Against::ALL {
-                    facets.push(Self::new(scene, &reference, series, against));
+                    facets.push(Self::new(scene, reference, series, against));
                 }
             }
         }
@@ -101,7 +101,7 @@ impl Facet {
         };
         let floor = scene.floor(reference).map(|(_, display)| display);
         Self {
-            title: format!("{}, visibility {reference}", scene.scene),
+            title: format!("{}, against {reference}", scene.scene),
             against,
             floor: floor.filter(|&floor| floor > 0.0),
             curves: series.iter().map(curve).collect(),

@@ -10,6 +10,7 @@ use crate::measurement::provenance::Provenance;
 use crate::measurement::scene_cells::SceneCells;
 use crate::question::crops;
 use crate::question::experiment::Experiment;
+use crate::question::references::Reference;
 use crate::show::style::method_style;
 
 /// All numbers; `pictures` has one entry a scene. Medians of every row, then every cell.
@@ -26,7 +27,7 @@ pub(super) fn data(report: &Report<'_>, pictures: &[Pictures<'_>], csv: String) 
         "seeds": scale.seeds,
         "repetitions": scale.repetitions,
         "reference_samples": scale.reference_samples,
-        "references": experiment.references.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "references": experiment.references.iter().map(|r| &r.name).collect::<Vec<_>>(),
         "variants": experiment.variants.iter().map(|variant| json!({
             "label": variant.label(),
             "method": variant.method.id(),
@@ -51,7 +52,7 @@ fn scene(
     answer: &SceneAnswer,
     pictures: &Pictures<'_>,
 ) -> Value {
-    let names: Vec<String> = cells.references.iter().map(|r| r.visibility.to_string()).collect();
+    let names: Vec<String> = cells.references.iter().map(|r| r.name.clone()).collect();
     let crops = experiment.crops.iter().filter(|crop| crop.scene == cells.scene);
     let crops = crops.enumerate().map(|(nth, crop)| {
         let [r, g, b] = crops::frame(nth);
@@ -60,9 +61,9 @@ fn scene(
             "color": format!("#{r:02x}{g:02x}{b:02x}"),
         })
     });
-    let floor = |name: &String| {
-        let (linear, display) = answer.floor(name)?;
-        Some((name.clone(), json!({ "linear": linear, "display": display })))
+    let floor = |reference: &Reference| {
+        let (linear, display) = answer.floor(&reference.name)?;
+        Some((reference.name.clone(), json!({ "linear": linear, "display": display })))
     };
     json!({
         "name": cells.scene,
@@ -71,7 +72,10 @@ fn scene(
         "factor": pictures.factor,
         "error_scale": pictures.error_scale,
         "left_out": pictures.left_out,
-        "floors": names.iter().filter_map(floor).collect::<serde_json::Map<_, _>>(),
+        "references": experiment.references.iter()
+            .map(|reference| answer.description(experiment, reference)).collect::<Vec<_>>(),
+        "floors": experiment.references.iter().filter(|reference| reference.is_path_traced())
+            .filter_map(floor).collect::<serde_json::Map<_, _>>(),
         "crops": crops.collect::<Vec<_>>(),
         "pictures": pictures.list.iter().map(picture).collect::<Vec<_>>(),
         "rows": (0..answer.rows.len()).map(|index| row(answer, index, &names)).collect::<Vec<_>>(),
@@ -81,8 +85,8 @@ fn scene(
 fn picture(picture: &Picture<'_>) -> Value {
     match picture {
         Picture::Reference(reference) => json!({
-            "reference": reference.visibility.to_string(),
-            "samples": reference.samples,
+            "reference": reference.name,
+            "made": reference.caption,
         }),
         Picture::Row(row, _) => json!({ "row": row }),
     }

@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use clap::ValueEnum;
-use manylights_scene::Visibility;
 
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
+use crate::measurement::inputs::ReferenceInputs;
 use crate::measurement::journal;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::SceneCells;
 use crate::question::experiment::{self, Experiment, Profile};
 use crate::question::plan::Turn;
+use crate::question::references::Reference;
 use crate::registry::Methods;
 
 /// What `manylights run` left in a folder.
@@ -93,8 +94,8 @@ fn turn_of(cell: &Cell, experiment: &Experiment) -> Option<Turn> {
             && variant.bounded == inputs.bounded
     })?;
     let referred = experiment.references.iter().all(|reference| {
-        let samples = inputs.references.get(&reference.to_string());
-        samples.is_some_and(|&samples| samples >= scale.reference_samples)
+        let asked = ReferenceInputs::new(reference, scale.reference_samples);
+        inputs.references.get(&reference.name).is_some_and(|made| made.serves(&asked))
     });
     let asked = inputs.resolution == scale.resolution
         && inputs.transport == experiment.transport.to_string()
@@ -119,9 +120,9 @@ fn scene_cells(
         _ => None,
     });
     let inputs = &cells.values().next().expect("a scene is there for a cell").inputs;
-    let reference = |&visibility: &Visibility| {
-        let comparison = done.and_then(|done| done.errors.get(&visibility.to_string()));
-        SceneReference::read(visibility, inputs, comparison, directory)
+    let reference = |reference: &Reference| {
+        let comparison = done.and_then(|done| done.errors.get(&reference.name));
+        SceneReference::read(reference, experiment, inputs, comparison, directory)
     };
     let turn = |(&(repetition, seed, variant, _), &cell): (&Key<'_>, &&Cell)| {
         (Turn { variant, seed, repetition }, cell.clone())

@@ -130,13 +130,7 @@ impl Report<'_> {
                     scale.seeds.len()
                 ),
             ),
-            (
-                "Light paths",
-                format!(
-                    "{}; references of {} samples a pixel",
-                    experiment.transport, scale.reference_samples
-                ),
-            ),
+            ("Light paths", experiment.transport.to_string()),
             (
                 "Processor",
                 format!("{}, {} threads, {}", machine.cpu, machine.threads, machine.system),

@@ -17,7 +17,7 @@ const BUDGET: usize = 32 << 20;
 
 /// A picture of the page.
 pub(super) enum Picture<'a> {
-    /// Of the path tracer.
+    /// What the others are compared with.
     Reference(&'a SceneReference),
     /// Index into the rows of the answer; the first seed.
     Row(usize, RadianceImage),
@@ -26,7 +26,7 @@ pub(super) enum Picture<'a> {
 impl Picture<'_> {
     fn image(&self) -> &RadianceImage {
         match self {
-            Self::Reference(reference) => &reference.image,
+            Self::Reference(reference) => reference.image(),
             Self::Row(_, image) => image,
         }
     }
@@ -68,7 +68,7 @@ impl<'a> Pictures<'a> {
             variants[variant + 1..].iter().all(|later| later.series() != series)
         };
         let count = scenes * (references.len() + all);
-        if count * pixels::length(&references[0].image) > BUDGET {
+        if count * pixels::length(references[0].image()) > BUDGET {
             done.retain(|&(_, variant, _)| ends_series(variant));
         }
         let mut list: Vec<_> = references.iter().map(Picture::Reference).collect();

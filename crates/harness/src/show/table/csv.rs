@@ -24,10 +24,9 @@ pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
     }
     text.push('\n');
     for scene in scenes {
-        for reference in &experiment.references {
-            let reference = reference.to_string();
-            for (row, rank) in scene.rows.iter().zip(scene.ranks(&reference)) {
-                text.push_str(&csv_line(experiment, &scene.scene, row, rank, &reference));
+        for reference in experiment.references.iter().map(|reference| &reference.name) {
+            for (row, rank) in scene.rows.iter().zip(scene.ranks(reference)) {
+                text.push_str(&csv_line(experiment, &scene.scene, row, rank, reference));
                 text.push('\n');
             }
         }

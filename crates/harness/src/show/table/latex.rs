@@ -75,6 +75,7 @@ fn escaped(text: &str) -> String {
             '≤' => escaped.push_str("$\\le$"),
             '×' => escaped.push_str("$\\times$"),
             '–' => escaped.push_str("--"),
+            '—' => escaped.push_str("---"),
             other => escaped.push(other),
         }
     }

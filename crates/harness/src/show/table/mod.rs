@@ -13,7 +13,8 @@ use crate::measurement::time_budget::TOLERANCE;
 use crate::question::columns::Column;
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Budget, Variant};
-use crate::show::numbers::{milliseconds, short};
+use crate::question::references::Reference;
+use crate::show::numbers::{self, milliseconds, short};
 
 pub(crate) use csv::csv;
 pub(crate) use latex::latex;
@@ -39,13 +40,11 @@ pub(crate) fn head(experiment: &Experiment, machine: &Provenance) -> [String; 2]
     });
     [
         format!(
-            "Profile {}: {width}×{height} pixels, transport {}, {} timed runs for each of {} \
-             seed(s), references of {} samples a pixel.",
+            "Profile {}: {width}×{height} pixels, transport {}, {} timed runs for each of {} seed(s).",
             experiment.profile,
             experiment.transport,
             scale.repetitions,
             scale.seeds.len(),
-            scale.reference_samples,
         ),
         format!(
             "{}; {}, {} threads, {}{adapter}.",
@@ -59,14 +58,15 @@ pub(crate) fn head(experiment: &Experiment, machine: &Provenance) -> [String; 2]
 
 /// The tables of a scene: one for each reference, then the times to reach an error.
 pub(crate) fn of_scene(experiment: &Experiment, scene: &SceneAnswer) -> Vec<Table> {
-    let references = experiment.references.iter().map(ToString::to_string);
+    let references = experiment.references.iter();
     let mut tables: Vec<Table> =
-        references.map(|reference| against(experiment, scene, &reference)).collect();
+        references.map(|reference| against(experiment, scene, reference)).collect();
     tables.extend(time_to_error(experiment, scene));
     tables
 }
 
-fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &str) -> Table {
+fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &Reference) -> Table {
+    let Reference { name, .. } = reference;
     let columns = shown(experiment, scene);
     let mut heading = vec![("rank", true), ("method", false)];
     heading.extend(
@@ -74,14 +74,14 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &str) -> Tab
             .iter()
             .map(|column| (column.title(), !matches!(column, Column::Counts | Column::Passes))),
     );
-    let ranks = scene.ranks(reference);
+    let ranks = scene.ranks(name);
     let lines = scene.rows.iter().zip(ranks).map(|(row, rank)| {
         let several = scene.rows.iter().any(|other| other.machine != row.machine);
         let machine = if several { format!(" @{}", row.machine) } else { String::new() };
         let label = experiment.variants[row.variant].label() + &machine;
         match &row.result {
             RowResult::Done(medians) => {
-                let at = Place { experiment, scene, row, reference };
+                let at = Place { experiment, scene, row, reference: name };
                 let mut line = vec![rank.map_or_else(String::new, place), label];
                 line.extend(columns.iter().map(|column| at.cell(*column, medians)));
                 line
@@ -92,17 +92,21 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &str) -> Tab
             RowResult::Failed(reason) => vec![String::new(), label, format!("FAILED: {reason}")],
         }
     });
-    let floor = scene.floor(reference).map(|(linear, display)| {
+    let floor = scene.floor(name).map(|(linear, display)| {
+        let known = |floor: f64| match reference.is_path_traced() {
+            true => short(floor),
+            false => "—".to_owned(),
+        };
         let mut line = vec![String::new(), "noise floor of the reference".to_owned()];
         line.extend(columns.iter().map(|column| match column {
-            Column::Rmse => short(display),
-            Column::RmseLinear => short(linear),
+            Column::Rmse => known(display),
+            Column::RmseLinear => known(linear),
             _ => String::new(),
         }));
         line
     });
     Table {
-        caption: format!("Against the reference with visibility {reference}"),
+        caption: format!("Against {name}: {}", scene.description(experiment, reference)),
         heading,
         lines: lines.chain(floor).collect(),
     }
@@ -143,7 +147,7 @@ impl Place<'_> {
         let errors = &medians.errors[self.reference];
         let base = self.scene.baseline(self.row).and_then(Row::medians);
         let ratio = |of: &dyn Fn(&Medians) -> f64| {
-            base.map_or_else(String::new, |base| short(of(medians) / of(base)))
+            base.map_or_else(String::new, |base| numbers::ratio(of(medians), of(base)))
         };
         let bias = medians.bias.get(self.reference);
         match column {
@@ -213,9 +217,9 @@ pub(crate) fn time_to_error(experiment: &Experiment, scene: &SceneAnswer) -> Opt
         return None;
     }
     let mut lines = Vec::new();
-    for reference in experiment.references.iter().map(ToString::to_string) {
+    for reference in experiment.references.iter().map(|reference| &reference.name) {
         for curve in series::of_experiment(experiment, std::slice::from_ref(scene)) {
-            let points = curve.points(scene, &reference);
+            let points = curve.points(scene, reference);
             for &error in &experiment.errors {
                 let time = match series::time_to_reach(&points, error) {
                     Reached::At(seconds) => milliseconds(seconds),
@@ -255,7 +259,7 @@ pub(crate) fn published(experiment: &Experiment, scenes: &[SceneAnswer]) -> Opti
             metric,
             short(published.value),
             ours.map_or_else(|| "none".to_owned(), short),
-            ours.map_or_else(String::new, |ours| short(ours / published.value)),
+            ours.map_or_else(String::new, |ours| numbers::ratio(ours, published.value)),
         ]
     };
     Some(Table {
@@ -283,6 +287,9 @@ pub(crate) fn foot(experiment: &Experiment) -> String {
          closer than the noise floor share a rank (=). All metrics are in `table.csv`.",
         experiment.variants[experiment.baseline].label()
     );
+    if experiment.transport != experiment.transport.estimated() {
+        text.push_str(" Direct light is exact and the same in all pictures; no time includes it.");
+    }
     if experiment.variants.iter().any(|variant| variant.method.baking().is_some()) {
         text.push_str(
             " Bake: wall clock of what further frames reuse, made once for a scene and for each camera, \

@@ -47,7 +47,7 @@ function drawTable() {
   const groups = GROUPS.map(([title, columns]) => [title, columns.filter(has)]);
   const columns = groups.flatMap(([, list]) => list);
   const starts = new Set(groups.slice(1).map(([, list]) => list[0]));
-  element('table-note').textContent = `${scene().name} against the reference with visibility ${referenceName()}. Choose a column to sort, a method to see its picture.`;
+  element('table-note').textContent = `${scene().name} against ${referenceName()}: ${scene().references[state.reference]}. Choose a column to sort, a method to see its picture.`;
   const table = element('table');
   table.replaceChildren(
     make('thead', {},

@@ -92,7 +92,7 @@ function drawPanel(shown) {
   const add = (term, text) => list.append(make('dt', {}, term), make('dd', {}, text));
   if (shown.reference) {
     const floor = scene().floors[shown.reference];
-    add('Samples', String(shown.samples));
+    add('Made of', shown.made);
     if (floor) add('Noise', `${short(floor.display)} (sRGB RMSE)`);
   } else {
     const row = rowOf(shown);
