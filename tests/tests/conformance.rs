@@ -12,11 +12,20 @@ use manylights_tests::Stage;
 const RESOLUTION: [u32; 2] = [12, 9];
 
 /// One of each kind, with both visibilities of a last segment.
-fn transports() -> Vec<Transport> {
-    let kinds = ["direct", "indirect-1", "indirect-2", "all"];
-    let traced = kinds.map(|kind| kind.parse().expect("a transport"));
-    let ignored = Transport::Indirect { bounces: 1, visibility: Visibility::Ignored };
-    traced.into_iter().chain([ignored]).collect()
+fn transports() -> BTreeSet<Transport> {
+    let kinds = ["direct", "indirect-1", "indirect-2", "direct+indirect-1", "all"];
+    let kinds = kinds.map(|kind| kind.parse::<Transport>().expect("a transport"));
+    for kind in kinds {
+        // Who adds a kind adds it above.
+        match kind {
+            Transport::Direct { .. }
+            | Transport::Indirect { .. }
+            | Transport::DirectAndIndirect { .. }
+            | Transport::All => {}
+        }
+    }
+    let visibilities = [Visibility::Traced, Visibility::Ignored];
+    kinds.iter().flat_map(|kind| visibilities.map(|v| kind.with_visibility(v))).collect()
 }
 
 /// A run to its end, whose progress only grows and whose counters are those that are documented.
