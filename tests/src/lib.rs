@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
-use manylights_method::{Frame, Method, Parameters, Run};
+use manylights_method::{Error, Frame, Method, Parameters, Run};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer::{Reference, Settings};
 use manylights_scene::Scene;
@@ -57,19 +57,38 @@ impl Stage {
         visibility: Visibility,
         seed: u64,
     ) -> Box<dyn Run + '_> {
-        let frame = Frame {
+        let transport = Transport::Indirect { bounces: 1, visibility };
+        let run = self.prepare(method, parameters, transport, seed);
+        let mut run = run.expect("the method renders the scene");
+        while !run.step().expect("a step").finished() {}
+        run
+    }
+
+    /// The same for any transport, not begun.
+    ///
+    /// # Errors
+    /// Those of the method.
+    pub fn prepare(
+        &self,
+        method: &dyn Method,
+        parameters: &[(&str, &str)],
+        transport: Transport,
+        seed: u64,
+    ) -> Result<Box<dyn Run + '_>, Error> {
+        let parameters = Parameters::new(method.parameters(), parameters.iter().copied());
+        method.prepare(&self.frame(transport, seed), &parameters.expect("in range"))
+    }
+
+    /// What a method is told of a picture.
+    pub fn frame(&self, transport: Transport, seed: u64) -> Frame<'_> {
+        Frame {
             scene: &self.scene,
             camera: &self.scene.cameras[0],
             resolution: self.on_gpu.resolution(),
-            transport: Transport::Indirect { bounces: 1, visibility },
+            transport,
             seed,
             gpu: Some(&self.on_gpu),
-        };
-        let parameters = Parameters::new(method.parameters(), parameters.iter().copied());
-        let parameters = parameters.expect("in range");
-        let mut run = method.prepare(&frame, &parameters).expect("the method renders the scene");
-        while !run.step().expect("a step").finished() {}
-        run
+        }
     }
 
     /// The same by tracing paths.

@@ -139,6 +139,30 @@ fn every_method_crate_is_registered() {
     assert!(METHODS.len() >= methods.len());
 }
 
+/// Where an oracle in double precision says what a method's pictures should be: `src/oracle.rs`, or a
+/// folder of that name, and a test that asks it; of the path tracer a sum over lit points, which is the
+/// limit of them all.
+#[test]
+fn every_method_has_an_oracle_and_tests_that_ask_it() {
+    for (krate, _) in manifests() {
+        if floor(&krate) != METHOD_FLOOR {
+            continue;
+        }
+        let folder = root().join("crates").join(&krate);
+        let asks = if krate == PATH_TRACER {
+            "oracle.radiance("
+        } else {
+            let places = ["src/oracle.rs", "src/oracle/mod.rs"].map(|place| folder.join(place));
+            let oracle = places.iter().find(|place| place.is_file());
+            let oracle = oracle.unwrap_or_else(|| panic!("{krate} has no src/oracle.rs"));
+            assert!(read(oracle).contains("f64") || read(oracle).contains("DVec3"), "{krate}");
+            "oracle::radiance("
+        };
+        let asked = texts(&folder.join("tests")).iter().any(|(_, text)| text.contains(asks));
+        assert!(asked, "no test of {krate} asks its oracle");
+    }
+}
+
 #[test]
 fn every_crate_obeys_the_workspace_lints_and_says_what_it_is() {
     for (krate, manifest) in manifests() {

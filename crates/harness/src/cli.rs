@@ -7,6 +7,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::commands;
 use crate::error::{Failure, one_line};
+use crate::registry::Methods;
 
 #[derive(Parser)]
 #[command(
@@ -64,11 +65,12 @@ Examples:
   manylights check                                 # exit status 1 and a table where something moved
   manylights check --baseline results/check --bless # what moved was meant to";
 
-/// Runs the program. Help and version go to standard output, as everywhere.
+/// Runs the program with these methods to choose from. Help and version go to standard output, as
+/// everywhere.
 ///
 /// # Errors
 /// One line and an exit status; see [`Failure`].
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure> {
+pub fn run(arguments: impl IntoIterator<Item = OsString>, methods: Methods) -> Result<(), Failure> {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error)
@@ -81,14 +83,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Failure>
         Err(error) => return Err(Failure::BadInput(mend(&error))),
     };
     match cli.command {
-        Command::List(arguments) => commands::list::run(&arguments),
-        Command::Render(arguments) => commands::render::run(&arguments),
+        Command::List(arguments) => commands::list::run(&arguments, methods),
+        Command::Render(arguments) => commands::render::run(&arguments, methods),
         Command::Metrics(arguments) => commands::metrics::run(&arguments),
-        Command::Run(arguments) => commands::run::run(&arguments),
-        Command::Report(arguments) => commands::report::run(&arguments),
-        Command::Plan(arguments) => commands::plan::run(&arguments),
-        Command::Merge(arguments) => commands::merge::run(&arguments),
-        Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Run(arguments) => commands::run::run(&arguments, methods),
+        Command::Report(arguments) => commands::report::run(&arguments, methods),
+        Command::Plan(arguments) => commands::plan::run(&arguments, methods),
+        Command::Merge(arguments) => commands::merge::run(&arguments, methods),
+        Command::Check(arguments) => commands::check::run(&arguments, methods),
         Command::Export(arguments) => commands::export::run(&arguments),
         Command::Completions { shell } => commands::completions::run(shell, &mut Cli::command()),
     }

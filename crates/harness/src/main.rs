@@ -4,8 +4,11 @@
 use std::io::Write;
 use std::process::ExitCode;
 
+use manylights_harness::cli;
+use manylights_harness::registry::METHODS;
+
 fn main() -> ExitCode {
-    match manylights_harness::cli::run(std::env::args_os()) {
+    match cli::run(std::env::args_os(), METHODS) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             // A reader of standard error that has gone is no reason to panic.

@@ -10,8 +10,11 @@ use manylights_vsl::Vsl;
 
 use crate::names;
 
-/// Every method, in the order of lists; its position fixes its colour and marker in plots.
-pub const METHODS: &[&dyn Method] = &[
+/// Methods to choose from, in the order of lists; a method's place fixes its colour and marker in plots.
+pub type Methods = &'static [&'static dyn Method];
+
+/// Every method of the program.
+pub const METHODS: Methods = &[
     &PathTracer,
     &VirtualLights(Vpl),
     &VirtualLights(Vsl),
@@ -19,28 +22,21 @@ pub const METHODS: &[&dyn Method] = &[
     &VirtualLights(Vsgl),
 ];
 
-/// The method of this name.
+/// Where the method of this name stands in a list.
 ///
 /// # Errors
 /// One line with the nearest name.
-pub fn method(id: &str) -> Result<&'static dyn Method, String> {
-    METHODS
-        .iter()
-        .copied()
-        .find(|method| method.id() == id)
-        .ok_or_else(|| names::unknown("method", id, METHODS.iter().map(|method| method.id())))
-}
-
-/// Where a method stands in [`METHODS`]; `METHODS.len()` for one that left the registry.
-pub(crate) fn position(id: &str) -> usize {
-    METHODS.iter().position(|method| method.id() == id).unwrap_or(METHODS.len())
+pub(crate) fn place(methods: Methods, id: &str) -> Result<usize, String> {
+    let ids = methods.iter().map(|method| method.id());
+    let place = ids.clone().position(|known| known == id);
+    place.ok_or_else(|| names::unknown("method", id, ids))
 }
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
+    use std::collections::{BTreeMap, BTreeSet};
 
-    use manylights_method::ParameterKind;
+    use manylights_method::{Amounts, Direction, ParameterInfo, ParameterKind};
 
     use super::*;
 
@@ -66,24 +62,65 @@ mod tests {
                 assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
                 assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
             }
+            let baked = method.baking().map_or(&[][..], |baking| baking.counters());
+            for counters in [method.counters(), baked] {
+                let mut counted = BTreeSet::new();
+                for info in counters {
+                    assert!(counted.insert(info.name), "{} twice in {}", info.name, method.id());
+                    assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
+                    assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
+                }
+            }
         }
     }
 
     #[test]
-    fn cost_parameters_are_counts() {
+    fn costs_are_positive_numbers() {
         for method in METHODS {
-            let cost = method.cost_parameter();
-            let declared = method.parameters().iter().find(|info| info.name == cost);
-            let kind = declared.map(|info| info.kind);
-            assert!(matches!(kind, Some(ParameterKind::Count { .. })), "{} {cost}", method.id());
+            let cost = method.cost();
+            assert!(Amounts::new(cost, method.parameters()).is_some(), "{} {cost:?}", method.id());
+            let declared = method.parameters().iter().find(|info| info.name == cost.parameter);
+            let counts =
+                matches!(declared.map(|info| info.kind), Some(ParameterKind::Count { .. }));
+            let along_progress = counts && cost.grows == Direction::Up;
+            assert!(along_progress || !method.is_progressive(), "{} {cost:?}", method.id());
+        }
+    }
+
+    #[test]
+    fn choices_are_documented_words() {
+        for info in METHODS.iter().flat_map(|method| method.parameters()) {
+            let ParameterKind::Choice { default, words } = info.kind else { continue };
+            let distinct: BTreeSet<_> = words.iter().map(|known| known.word).collect();
+            assert_eq!(distinct.len(), words.len(), "{} has a word twice", info.name);
+            assert!(distinct.contains(default), "{}: {default}", info.name);
+            for known in words {
+                assert!(well_formed(known.word), "{}={}", info.name, known.word);
+                assert!(known.help.len() > 5, "{}={} has no help", info.name, known.word);
+            }
+        }
+    }
+
+    /// Bounds and defaults of numbers are a method's own.
+    #[test]
+    fn a_name_means_one_thing() {
+        let sort = |info: &ParameterInfo| match info.kind {
+            ParameterKind::Count { .. } => ("count", None),
+            ParameterKind::Real { .. } => ("real", None),
+            ParameterKind::Choice { words, .. } => ("choice", Some(words)),
+        };
+        let mut meanings = BTreeMap::new();
+        for info in METHODS.iter().flat_map(|method| method.parameters()) {
+            let meaning = (sort(info), info.help);
+            assert_eq!(*meanings.entry(info.name).or_insert(meaning), meaning, "{}", info.name);
         }
     }
 
     #[test]
     fn an_unknown_method_is_an_error() {
-        assert!(method("no-such-method").is_err());
+        assert!(place(METHODS, "no-such-method").is_err());
         assert_eq!(
-            method("referense").err(),
+            place(METHODS, "referense").err(),
             Some("unknown method `referense`: did you mean `reference`?".into())
         );
     }

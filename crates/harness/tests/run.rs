@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::Output;
 
 use common::{manylights, refused, succeeded};
+use manylights_metrics::{RadianceImage, compare_display, compare_linear};
 
 const EXPERIMENT: &str = r#"
 title = "Test"
@@ -21,6 +22,8 @@ resolution = [24, 16]
 reference_samples = 64
 repetitions = 2
 seeds = [1, 2]
+[exposures]
+cornell = 2.0
 "#;
 /// Two settings, two seeds, two repetitions.
 const CELLS: usize = 8;
@@ -48,6 +51,7 @@ fn a_run_writes_its_answer_and_goes_on_after_an_interruption() {
     let first = lines(folder);
     assert_eq!(first.len(), CELLS);
     check_cells(&first);
+    check_errors(folder, &first);
 
     succeeded(&run(folder));
     assert_eq!(lines(folder), first, "a finished run repeats nothing");
@@ -107,6 +111,30 @@ fn check_cells(lines: &[String]) {
         // Over 24×16 pixels the noise of an estimate of variance is some 10 %; 2 is far outside.
         let expected = floor * 8.0;
         assert!((0.5..2.0).contains(&(scaled / expected)), "{scaled} is not near {expected}");
+    }
+}
+
+/// Errors are those of the written pictures: of radiance, and of what is shown at the experiment's exposure.
+fn check_errors(folder: &Path, lines: &[String]) {
+    let read = |name: &str| {
+        RadianceImage::read_exr(&folder.join("out/cells").join(name)).expect("a picture")
+    };
+    for line in lines {
+        let cell: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        // Repetitions have the same picture.
+        if cell["repetition"] != 0 {
+            continue;
+        }
+        let key = cell["key"].as_str().expect("a key");
+        let image = read(&format!("cornell-{}.exr", &key[..16]));
+        for visibility in ["traced", "ignored"] {
+            let reference = read(&format!("cornell-reference-{visibility}.exr"));
+            let errors = &cell["errors"][visibility];
+            let linear = compare_linear(&image, &reference).expect("comparable");
+            let display = compare_display(&image, &reference, 2.0).expect("comparable");
+            assert_eq!(errors["linear"], serde_json::to_value(linear).expect("plain data"));
+            assert_eq!(errors["display"], serde_json::to_value(display).expect("plain data"));
+        }
     }
 }
 

@@ -7,7 +7,7 @@
 //! compiled pipelines may stay. Drivers compile them at the first dispatch, so that a bake on the adapter
 //! ([`Baking::processor`]) is made once before, without the clock, and thrown away.
 
-use crate::{Error, Frame, Parameters, PassTime, Processor, Run};
+use crate::{CounterInfo, Error, Frame, Parameters, PassTime, Processor, Run};
 
 /// What a bake depends on, beside all parameters but the method's cost and beside transport and
 /// resolution. The default is nothing.
@@ -33,6 +33,9 @@ pub trait Baking: Sync {
 
     /// Where the bake is made, which need not be where frames are.
     fn processor(&self) -> Processor;
+
+    /// What [`Bake::counters`] returns, in its order.
+    fn counters(&self) -> &'static [CounterInfo];
 
     /// Bakes for a frame and waits for the end of it.
     ///
@@ -64,7 +67,7 @@ pub trait Bake {
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error>;
 
-    /// What the bake has counted so far: `tables`, `records`, …
+    /// What the bake has counted so far, one number for each of [`Baking::counters`].
     fn counters(&self) -> Vec<(&'static str, u64)>;
 
     /// The time of each of its passes so far, by the processor's own clock.

@@ -6,6 +6,7 @@
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
 mod bake;
+mod cost;
 mod parameters;
 
 use manylights_gpu::GpuFrame;
@@ -13,7 +14,8 @@ use manylights_metrics::RadianceImage;
 use manylights_scene::{Camera, Scene, Transport, Visibility};
 
 pub use bake::{Bake, Baking, Dependencies};
-pub use parameters::{ParameterInfo, ParameterKind, Parameters};
+pub use cost::{Amounts, Cost, Direction};
+pub use parameters::{ChoiceWord, ParameterInfo, ParameterKind, ParameterValue, Parameters};
 
 /// Where the work of a method is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +57,15 @@ impl Progress {
     pub fn finished(self) -> bool {
         self.done >= self.total
     }
+}
+
+/// A number that a method counts, as `list methods` shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CounterInfo {
+    /// Its name in results.
+    pub name: &'static str,
+    /// What is counted.
+    pub help: &'static str,
 }
 
 /// The time that one pass took, by the processor's own clock.
@@ -102,15 +113,17 @@ pub trait Method: Sync {
     /// What can be set with `--set KEY=VALUE`.
     fn parameters(&self) -> &'static [ParameterInfo];
 
-    /// The parameter, a [`ParameterKind::Count`], that time and accuracy grow with. Where a budget
-    /// names a time, its value is searched for.
-    fn cost_parameter(&self) -> &'static str;
+    /// What [`Run::counters`] returns, in its order.
+    fn counters(&self) -> &'static [CounterInfo];
+
+    /// The parameter that time and accuracy depend on.
+    fn cost(&self) -> Cost;
 
     /// Of the last segment, where nobody says: what its source computes.
     fn visibility(&self) -> Visibility;
 
     /// Whether the picture after every step estimates the final one, so that one run gives a whole
-    /// curve of error against time.
+    /// curve of error against time. Its cost is then a count, the one that [`Progress`] tells of.
     fn is_progressive(&self) -> bool;
 
     /// How it bakes what further frames reuse; `None` where there is nothing.
@@ -144,7 +157,7 @@ pub trait Run {
     /// [`Error::Failed`] where the device gave up.
     fn resolve(&mut self) -> Result<RadianceImage, Error>;
 
-    /// What the run has counted: `lights`, `rays`, …
+    /// What the run has counted, one number for each of [`Method::counters`].
     fn counters(&self) -> Vec<(&'static str, u64)>;
 
     /// The time of each pass so far.

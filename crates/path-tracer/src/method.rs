@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use manylights_method::{
-    Error, Frame, Method, ParameterInfo, ParameterKind, Parameters, PassTime, Processor, Progress,
-    Run,
+    Cost, CounterInfo, Direction, Error, Frame, Method, ParameterInfo, ParameterKind, Parameters,
+    PassTime, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::Visibility;
@@ -45,14 +45,22 @@ impl Method for PathTracer {
     fn parameters(&self) -> &'static [ParameterInfo] {
         &[ParameterInfo {
             name: "samples",
+            formerly: None,
+            introduced: None,
             help: "paths a pixel, rounded up to equal slices of at most 16",
             kind: ParameterKind::Count { default: 64, min: 1, max: 1 << 24 },
-            introduced: None,
         }]
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        "samples"
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[
+            CounterInfo { name: "samples", help: "paths a pixel" },
+            CounterInfo { name: "rays", help: "rays cast, primary and shadow rays among them" },
+        ]
+    }
+
+    fn cost(&self) -> Cost {
+        Cost { parameter: "samples", grows: Direction::Up }
     }
 
     fn visibility(&self) -> Visibility {

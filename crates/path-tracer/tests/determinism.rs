@@ -39,17 +39,19 @@ fn the_number_of_threads_does_not_matter() {
 #[test]
 fn seeds_make_independent_pictures() {
     let scene = load("cornell", None).expect("a built-in scene");
-    let render = |seed| rendered(&scene, &settings("indirect-1", seed), 2).expect("a picture");
+    let sixteen =
+        Settings { samples: 16 * SLICE, resolution: [64, 48], ..settings("indirect-1", 0) };
+    let render = |seed| rendered(&scene, &Settings { seed, ..sixteen }, 2).expect("a picture");
     let (a, b) = (render(1), render(1 << 32));
     assert_ne!(a.image, b.image);
-    // Independent pictures of the same mean differ by √2 of their noise; a third of leeway for
-    // variances from two slices.
+    // Independent pictures of the same mean differ by √2 of their noise; eight pairs of seeds did by
+    // 0.93 to 1.04 of it.
     let squares: f64 = std::iter::zip(a.image.pixels.as_flattened(), b.image.pixels.as_flattened())
         .map(|(a, b)| f64::from(a - b).powi(2))
         .sum();
     let difference = (squares / (3.0 * a.image.pixels.len() as f64)).sqrt();
     let expected = a.noise_floor.hypot(b.noise_floor);
-    assert!((difference / expected - 1.0).abs() < 0.33, "{difference} {expected}");
+    assert!((difference / expected - 1.0).abs() < 0.12, "{difference} {expected}");
 }
 
 /// The method and the reference are one algorithm.

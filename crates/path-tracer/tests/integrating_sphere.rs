@@ -35,8 +35,8 @@ fn reference(scene: &Scene, transport: &str, visibility: Visibility, samples: u3
 }
 
 /// The picture's mean is `expected` within three standard errors beside the facets' bias, and within
-/// 0.5 %. The RMSE of the pixels is no larger than the noise floor says, within a third: the variances
-/// come from eight slices or more, but of heavy-tailed samples.
+/// 0.5 %. The RMSE of the pixels is what the noise floor says, within 12 %: 16 slices or more, but of
+/// heavy-tailed samples, are off by up to 7 %.
 fn assert_uniform(scene: &Scene, reference: &Reference, expected: f32) {
     let expected = f64::from(expected);
     let bias = facets(scene) * expected;
@@ -57,7 +57,8 @@ fn assert_uniform(scene: &Scene, reference: &Reference, expected: f32) {
     }
     let rmse = (squares / (3.0 * count)).sqrt();
     let floor = reference.noise_floor;
-    assert!(rmse <= 1.33 * floor + bias, "RMSE {rmse}, noise floor {floor}, bias {bias}");
+    assert!(rmse <= 1.12 * floor + bias, "RMSE {rmse}, noise floor {floor}, bias {bias}");
+    assert!(rmse >= 0.88 * floor, "RMSE {rmse}, noise floor {floor}");
 }
 
 fn centred() -> Light {
@@ -79,6 +80,17 @@ fn spot() -> Light {
     }
 }
 
+/// All but a half space in shadow. From the centre the densities of both strategies are alike everywhere:
+/// paths that start at the light carry two thirds of the weight, so a density that is off by 3 % makes
+/// the picture wrong by 0.7 %.
+fn wide_spot() -> Light {
+    let (inner, outer) = (WIDE, WIDE + 1e-4);
+    let (position, direction) = (Vec3::ZERO, Vec3::new(0.2, -1.0, 0.4).normalize());
+    Light::Spot { position, direction, intensity: Vec3::splat(INTENSITY), inner, outer }
+}
+
+const WIDE: f32 = 1.5;
+
 /// ρ^(k+1) Φ / (4π²R²) for flux in units of that of a point light.
 fn bounce(k: i32, flux: f32) -> f32 {
     ALBEDO.powi(k + 1) * flux * INTENSITY / (PI * RADIUS * RADIUS)
@@ -86,6 +98,10 @@ fn bounce(k: i32, flux: f32) -> f32 {
 
 fn spot_flux() -> f32 {
     (1.0 - 0.300_05_f32.cos()) / 2.0
+}
+
+fn wide_spot_flux() -> f32 {
+    (1.0 - (WIDE + 5e-5).cos()) / 2.0
 }
 
 #[test]
@@ -99,7 +115,12 @@ fn direct_light_is_exact() {
 #[test]
 fn one_bounce() {
     for visibility in [Visibility::Traced, Visibility::Ignored] {
-        for (light, flux) in [(centred(), 1.0), (off_centre(), 1.0), (spot(), spot_flux())] {
+        for (light, flux) in [
+            (centred(), 1.0),
+            (off_centre(), 1.0),
+            (spot(), spot_flux()),
+            (wide_spot(), wide_spot_flux()),
+        ] {
             let scene = sphere(light);
             let reference = reference(&scene, "indirect-1", visibility, 256);
             assert_uniform(&scene, &reference, bounce(1, flux));

@@ -42,6 +42,31 @@ fn texels_are_the_virtual_lights_of_their_cells() {
     }
 }
 
+/// E_s ΔA = Φ cos_s/cos_g where normals are interpolated (Veach 1997, 5.3): of the lights, and by the test
+/// above of the texels.
+#[test]
+fn flux_is_that_of_the_cell_times_the_quotient_of_its_cosines() {
+    let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
+    let scene = manylights_scene::load("trio", None).expect("built in");
+    let frame = GpuFrame::new(&gpu, &scene, &scene.cameras[0], [4, 4]).expect("fits");
+    let (maps, _) = lit_maps(&frame, &scene, 2000, 3).expect("maps");
+    let mut farthest: f32 = 1.0;
+    for lit in maps {
+        let columns = lit.map.projection.resolution[0];
+        for (index, light) in (0..).zip(&lit.lights) {
+            let Some(light) = light else { continue };
+            let cell = lit.map.cell(index % columns, index / columns);
+            assert_eq!(light.incoming, -cell.direction);
+            let quotient =
+                light.normal.dot(light.incoming) / light.geometric_normal.dot(light.incoming);
+            let error = (light.flux - cell.flux * quotient).abs().max_element();
+            assert!(error <= 1e-6 * light.flux.max_element(), "{light:?}, {cell:?}");
+            farthest = farthest.max(quotient.max(1.0 / quotient));
+        }
+    }
+    assert!(farthest > 1.2, "a weak test: the quotients are within {farthest}");
+}
+
 /// Cells that are cut finer see the same flux, and their patches cover the same surface.
 #[test]
 fn refined_cells_add_up() {

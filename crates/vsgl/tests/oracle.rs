@@ -2,12 +2,16 @@
 
 mod common;
 
-use common::{GPU, LOBES, Picture, SETTINGS, fitted, glossy, lobe, render, render_scene, surface};
+use common::{
+    GPU, LOBES, Picture, SETTINGS, fitted, glossy, lobe, render, render_scene, surface, texel,
+};
 use glam::Vec3;
 use manylights_gpu::{GpuFrame, SurfaceRecord};
 use manylights_scene::{Brdf, Scene};
 use manylights_virtual_lights::{LitTexel, lit_texels, scene_maps};
-use manylights_vsgl::{GaussianLight, Lobe, Settings, gather, gaussian_lights, oracle};
+use manylights_vsgl::{
+    GaussianLight, Lobe, Settings, filter_group, gather, gaussian_lights, oracle,
+};
 
 /// Largest difference of a pixel, relative to the picture's largest component.
 fn worst(picture: &Picture) -> f64 {
@@ -149,4 +153,17 @@ fn filtered_texels() {
 #[test]
 fn filtered_texels_of_fitted_materials() {
     filtered_texels_of(&fitted("trio"), 49, 4);
+}
+
+/// The diffuse lobe leaves about the geometric normal, whatever shading makes of it.
+#[test]
+fn diffuse_lobes_leave_about_the_geometric_normal() {
+    let normal = Vec3::new(0.2, 1.0, -0.1).normalize();
+    let (mut surface, lit) = texel(Vec3::ZERO, normal, Vec3::Y, glossy(0.5));
+    surface.normal = Vec3::new(-0.4, 1.0, 0.3).normalize();
+    let adapter = filter_group(&GPU, &[(surface, lit)]).expect("a filter").expect("a light");
+    let [diffuse, _] = oracle::filter(&[(surface, lit)]);
+    for axis in [adapter.diffuse.axis, diffuse.axis.as_vec3()] {
+        assert!(axis.distance(normal) < 1e-6, "{axis}, expected {normal}");
+    }
 }

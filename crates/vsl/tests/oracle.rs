@@ -4,10 +4,11 @@ mod common;
 #[path = "../../scene/tests/common/tensor.rs"]
 mod tensor;
 
-use common::{Picture, SETTINGS, render};
+use common::{GPU, Picture, SETTINGS, glossy, light, render};
 use glam::{DVec3, Vec3};
+use manylights_gpu::SurfaceRecord;
 use manylights_virtual_lights::RadiusRule;
-use manylights_vsl::{Sampling, Settings};
+use manylights_vsl::{Sampling, Settings, gather};
 
 /// How a picture differs from its oracle.
 #[derive(Debug)]
@@ -94,4 +95,25 @@ fn same_seed_same_image_and_other_seed_other_image() {
     let first = render("trio", [32, 24], &SETTINGS, 0).image;
     assert_eq!(first, render("trio", [32, 24], &SETTINGS, 0).image);
     assert_ne!(first, render("trio", [32, 24], &SETTINGS, 1).image);
+}
+
+/// The lights stay: what differs are the directions alone, which seed, pixel and light choose.
+#[test]
+fn samples_depend_on_seed_pixel_and_light() {
+    let sphere = light(Vec3::new(-0.3, 0.4, 0.1), Vec3::NEG_Y, glossy(0.6), 0.5);
+    let surfaces = [SurfaceRecord::new(Vec3::ZERO, Vec3::Y, glossy(0.6)); 2];
+    for sampling in [Sampling::Brdf, Sampling::Cone, Sampling::Both] {
+        let settings = Settings { sampling, ..SETTINGS };
+        let radiance = |lights: &[_], seed| {
+            let camera = Vec3::new(0.6, 1.0, -0.2);
+            gather(&GPU, &surfaces, camera, lights, &settings, seed).expect("a gather")
+        };
+        let [first, other_pixel] = radiance(&[sphere], 0)[..] else { panic!("two pixels") };
+        assert_eq!(first, radiance(&[sphere], 0)[0]);
+        assert_ne!(first, other_pixel, "{sampling:?}");
+        for seed in [1, 1 << 32] {
+            assert_ne!(first, radiance(&[sphere], seed)[0], "{sampling:?}, seed {seed}");
+        }
+        assert_ne!(first.map(|c| 2.0 * c), radiance(&[sphere; 2], 0)[0], "{sampling:?}");
+    }
 }

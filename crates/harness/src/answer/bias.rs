@@ -104,12 +104,18 @@ mod tests {
                 .collect(),
         };
         let pictures: Vec<_> = (0..8).map(picture).collect();
-        let truth = RadianceImage { width: 64, height: 64, pixels: vec![[0.5; 3]; 64 * 64] };
-        let pairs: Vec<_> = pictures.iter().map(|picture| (picture, &truth)).collect();
-        let Bias { bias, deviation } = split(&pairs, 0.0);
-        // 4096 pixels of 8 seeds: both are known to about 1 %.
-        assert!((bias - 0.1).abs() < 0.01, "{bias}");
-        assert!((deviation - 0.2).abs() < 0.01, "{deviation}");
+        // A truth of which the noise is known: none, and as much as the bias itself.
+        for floor in [0.0_f32, 0.1] {
+            let value =
+                |index: u64| if splitmix(index * 8 + 9) >> 63 == 0 { floor } else { -floor };
+            let pixels = (0..64 * 64).map(|index| [0.5 + value(index); 3]).collect();
+            let truth = RadianceImage { width: 64, height: 64, pixels };
+            let pairs: Vec<_> = pictures.iter().map(|picture| (picture, &truth)).collect();
+            let Bias { bias, deviation } = split(&pairs, floor.into());
+            // 4096 pixels of 8 seeds: both are known to about 1 %.
+            assert!((bias - 0.1).abs() < 0.01, "{bias} beside {floor}");
+            assert!((deviation - 0.2).abs() < 0.01, "{deviation} beside {floor}");
+        }
         // Against itself, seed by seed, nothing is left, whatever the noise.
         let own: Vec<_> = pictures.iter().map(|picture| (picture, picture)).collect();
         assert_eq!(split(&own, 0.0), Bias { bias: 0.0, deviation: 0.0 });

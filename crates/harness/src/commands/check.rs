@@ -12,6 +12,7 @@ use crate::measurement::lines;
 use crate::measurement::session::Session;
 use crate::output::{self, print_json, say};
 use crate::question::experiment::{self, Experiment, Profile};
+use crate::registry::Methods;
 use clap::Args;
 
 #[derive(Args)]
@@ -35,10 +36,10 @@ pub(crate) struct CheckArguments {
 ///
 /// # Errors
 /// One line: bad input; or something moved, after a table of it.
-pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &CheckArguments, methods: Methods) -> Result<(), Failure> {
     let directory = &arguments.baseline;
     let file = directory.join("experiment.toml");
-    let experiment = experiment::read(&file, Profile::Quick).map_err(Failure::input)?;
+    let experiment = experiment::read(&file, Profile::Quick, methods).map_err(Failure::input)?;
     let path = directory.join("cells.jsonl");
     let lines::Contents { lines: baseline, problems, notes } = lines::read(&path)?;
     let baseline: Vec<Cell> = baseline.into_iter().map(|line| line.cell).collect();

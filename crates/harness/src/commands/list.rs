@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use manylights_method::{Method, ParameterInfo, ParameterKind, Processor};
+use manylights_method::{ChoiceWord, CounterInfo, Method, ParameterInfo, ParameterKind, Processor};
 use manylights_scene::SceneKind;
 use serde_json::{Value, json};
 
 use crate::error::Failure;
 use crate::output::{print_json, say};
 use crate::question::experiment;
-use crate::registry::METHODS;
+use crate::registry::Methods;
 use clap::Args;
 
 /// What `list` shows.
@@ -36,9 +36,9 @@ const RESULTS: &str = "results";
 ///
 /// # Errors
 /// One line where an experiment file is malformed.
-pub(crate) fn run(arguments: &ListArguments) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &ListArguments, methods: Methods) -> Result<(), Failure> {
     let entries = match arguments.what {
-        Listed::Methods => METHODS.iter().map(|method| method_entry(*method)).collect(),
+        Listed::Methods => methods.iter().map(|method| method_entry(*method)).collect(),
         Listed::Scenes => scenes(),
         Listed::Experiments => experiments()?,
     };
@@ -63,41 +63,59 @@ fn method_entry(method: &dyn Method) -> Entry {
     };
     let mut text = format!("{} ({processor}): {}", method.id(), method.title());
     for info in method.parameters() {
-        text.push_str(&format!("\n  --set {}=N  {} ({})", info.name, info.help, range(info)));
+        text.push_str(&parameter_text(info));
     }
     let json = json!({
         "id": method.id(),
         "title": method.title(),
         "processor": processor,
         "parameters": method.parameters().iter().map(parameter_json).collect::<Vec<_>>(),
+        "counters": method.counters().iter().map(counter_json).collect::<Vec<_>>(),
+        "bake_counters": method.baking().map(|baking| {
+            baking.counters().iter().map(counter_json).collect::<Vec<_>>()
+        }),
     });
     Entry { text, json }
 }
 
-fn range(info: &ParameterInfo) -> String {
+fn parameter_text(info: &ParameterInfo) -> String {
+    let ParameterInfo { name, help, .. } = info;
     match info.kind {
-        ParameterKind::Count { default, min, max } => {
-            format!("a whole number from {min} to {max}, default {default}")
-        }
+        ParameterKind::Count { default, min, max } => format!(
+            "\n  --set {name}=N  {help} (a whole number from {min} to {max}, default {default})"
+        ),
         ParameterKind::Real { default, min, max } => {
-            format!("a number from {min} to {max}, default {default}")
+            format!("\n  --set {name}=N  {help} (a number from {min} to {max}, default {default})")
+        }
+        ParameterKind::Choice { default, words } => {
+            let line = |known: &ChoiceWord| format!("\n      {}: {}", known.word, known.help);
+            let lines: String = words.iter().map(line).collect();
+            format!("\n  --set {name}=WORD  {help} (default {default}){lines}")
         }
     }
 }
 
 fn parameter_json(info: &ParameterInfo) -> Value {
-    let (kind, default, min, max) = match info.kind {
-        ParameterKind::Count { default, min, max } => {
-            ("count", json!(default), json!(min), json!(max))
+    let ParameterInfo { name, help, .. } = info;
+    match info.kind {
+        ParameterKind::Count { default, min, max } => json!({
+            "name": name, "help": help, "kind": "count", "default": default, "min": min, "max": max,
+        }),
+        ParameterKind::Real { default, min, max } => json!({
+            "name": name, "help": help, "kind": "real", "default": default, "min": min, "max": max,
+        }),
+        ParameterKind::Choice { default, words } => {
+            let word = |known: &ChoiceWord| json!({ "word": known.word, "help": known.help });
+            let words: Vec<_> = words.iter().map(word).collect();
+            json!({
+                "name": name, "help": help, "kind": "choice", "default": default, "words": words,
+            })
         }
-        ParameterKind::Real { default, min, max } => {
-            ("real", json!(default), json!(min), json!(max))
-        }
-    };
-    json!({
-        "name": info.name, "help": info.help, "kind": kind,
-        "default": default, "min": min, "max": max,
-    })
+    }
+}
+
+fn counter_json(info: &CounterInfo) -> Value {
+    json!({ "name": info.name, "help": info.help })
 }
 
 fn scenes() -> Vec<Entry> {

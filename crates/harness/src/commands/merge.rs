@@ -8,6 +8,7 @@ use crate::measurement::journal::Journal;
 use crate::measurement::lines;
 use crate::measurement::pictures::image_path;
 use crate::output::{self, say};
+use crate::registry::Methods;
 use crate::show::answer_files;
 use crate::show::report::{self, Loaded};
 use clap::Args;
@@ -28,7 +29,7 @@ pub(crate) struct MergeArguments {
 /// # Errors
 /// One line where a folder holds no results or those of another experiment, or is that of the merged
 /// results.
-pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &MergeArguments, methods: Methods) -> Result<(), Failure> {
     let out = &arguments.out;
     let parts = |folder: &Path| ["cells.jsonl", "cells"].map(|name| folder.join(name));
     let inputs: Vec<_> = arguments.directories.iter().flat_map(|folder| parts(folder)).collect();
@@ -53,7 +54,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<(), Failure> {
             }
         }
     }
-    let Loaded { experiment, scenes } = report::load(out)?;
+    let Loaded { experiment, scenes } = report::load(out, methods)?;
     let command = report::command(&out.join("experiment.toml"), &experiment, None);
     answer_files::write(&experiment, &scenes, command, out)?;
     Ok(())

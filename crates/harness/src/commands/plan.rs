@@ -8,6 +8,7 @@ use crate::output::{print_json, say};
 use crate::question::experiment;
 use crate::question::experiment::Profile;
 use crate::question::jobs;
+use crate::registry::Methods;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -30,8 +31,8 @@ pub(crate) struct PlanArguments {
 ///
 /// # Errors
 /// One line for bad input.
-pub(crate) fn run(arguments: &PlanArguments) -> Result<(), Failure> {
-    let experiment = experiment::read(&arguments.experiment, arguments.profile);
+pub(crate) fn run(arguments: &PlanArguments, methods: Methods) -> Result<(), Failure> {
+    let experiment = experiment::read(&arguments.experiment, arguments.profile, methods);
     let experiment = experiment.map_err(Failure::input)?;
     let scenes = run::load(&experiment, arguments.assets.as_deref())?;
     let jobs = jobs::of_experiment(&experiment, &scenes)?;

@@ -12,7 +12,7 @@ use crate::output::{self, say};
 use crate::progress::Progress;
 use crate::question::plan::no_choice;
 use crate::question::settings;
-use crate::registry;
+use crate::registry::{self, Methods};
 use clap::Args;
 use manylights_scene::{Transport, Visibility};
 
@@ -56,8 +56,9 @@ pub(crate) struct RenderArguments {
 /// # Errors
 /// One line: bad input before anything is rendered; a failed device or pixels that are not finite
 /// after the picture is written.
-pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
-    let method = registry::method(&arguments.method).map_err(Failure::input)?;
+pub(crate) fn run(arguments: &RenderArguments, methods: Methods) -> Result<(), Failure> {
+    let place = registry::place(methods, &arguments.method).map_err(Failure::input)?;
+    let method = methods[place];
     let pairs = arguments.set.iter().map(|(key, value)| (key.as_str(), value.as_str()));
     let parameters = settings::parameters(method, pairs).map_err(Failure::input)?;
     let transport = arguments.transport;

@@ -1,6 +1,7 @@
 //! `manylights report`.
 
 use crate::error::Failure;
+use crate::registry::Methods;
 use crate::show::answer_files;
 use crate::show::report::{self, Loaded};
 use clap::Args;
@@ -18,9 +19,9 @@ pub(crate) struct ReportArguments {
 ///
 /// # Errors
 /// One line where the folder does not hold the results of an experiment.
-pub(crate) fn run(arguments: &ReportArguments) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &ReportArguments, methods: Methods) -> Result<(), Failure> {
     let directory = &arguments.directory;
-    let Loaded { experiment, scenes } = report::load(directory)?;
+    let Loaded { experiment, scenes } = report::load(directory, methods)?;
     let command = report::command(&directory.join("experiment.toml"), &experiment, None);
     answer_files::write(&experiment, &scenes, command, directory)?;
     Ok(())

@@ -15,6 +15,7 @@ use crate::output;
 use crate::question::experiment::Profile;
 use crate::question::experiment::{self, Experiment};
 use crate::question::jobs;
+use crate::registry::Methods;
 use crate::show::answer_files;
 use crate::show::layers;
 use crate::show::report;
@@ -44,9 +45,9 @@ pub(crate) struct RunArguments {
 ///
 /// # Errors
 /// One line: bad input before anything is rendered; failed cells after everything is written.
-pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+pub(crate) fn run(arguments: &RunArguments, methods: Methods) -> Result<(), Failure> {
     let file = &arguments.experiment;
-    let experiment = experiment::read(file, arguments.profile).map_err(Failure::input)?;
+    let experiment = experiment::read(file, arguments.profile, methods).map_err(Failure::input)?;
     let beside = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let out = arguments.out.as_deref().or(beside).unwrap_or(Path::new("."));
     output::check_directory(out, "--out")?;

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use manylights_method::{
-    Bake, Baking, Dependencies, Error, Frame, Method, ParameterInfo, ParameterKind, Parameters,
-    PassTime, Processor, Progress, Run,
+    Bake, Baking, Cost, CounterInfo, Dependencies, Direction, Error, Frame, Method, ParameterInfo,
+    ParameterKind, Parameters, PassTime, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Visibility};
@@ -18,6 +18,7 @@ use crate::measurement::session::Session;
 use crate::question::columns::Column;
 use crate::question::experiment::{self, Experiment, Profile};
 use crate::question::plan::{Bounded, Budget, Variant};
+use crate::registry::METHODS;
 use crate::show::table;
 
 struct Baker {
@@ -71,11 +72,21 @@ impl Method for &'static Baker {
 
     fn parameters(&self) -> &'static [ParameterInfo] {
         const KIND: ParameterKind = ParameterKind::Count { default: 4, min: 1, max: 64 };
-        &[ParameterInfo { name: "work", help: "none at all", kind: KIND, introduced: None }]
+        &[ParameterInfo {
+            name: "work",
+            formerly: None,
+            introduced: None,
+            help: "none at all",
+            kind: KIND,
+        }]
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        "work"
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[]
+    }
+
+    fn cost(&self) -> Cost {
+        Cost { parameter: "work", grows: Direction::Up }
     }
 
     fn visibility(&self) -> Visibility {
@@ -106,6 +117,10 @@ impl Baking for &'static Baker {
 
     fn processor(&self) -> Processor {
         self.processor
+    }
+
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[CounterInfo { name: "views", help: "cameras so far" }]
     }
 
     fn bake(&self, frame: &Frame<'_>, parameters: &Parameters) -> Result<Box<dyn Bake>, Error> {
@@ -174,7 +189,7 @@ seeds = [1, 2]
 fn experiment_in(folder: &Path) -> Experiment {
     let file = folder.join("experiment.toml");
     std::fs::write(&file, EXPERIMENT).expect("writable");
-    experiment::read(&file, Profile::Quick).expect("valid")
+    experiment::read(&file, Profile::Quick, METHODS).expect("valid")
 }
 
 /// The cells of `cameras` of the atrium by a method that bakes, with this budget; and what it wrote down.
@@ -194,6 +209,7 @@ fn cells(
 fn variant(baker: &'static Baker) -> Variant {
     Variant {
         method: Box::leak(Box::new(baker)),
+        place: 0,
         parameters: Parameters::defaults((&baker).parameters()),
         swept: "work",
         visibility: Visibility::Traced,
@@ -273,7 +289,7 @@ fn an_equal_build_time_is_searched_with_bakes_that_are_made_anew() {
     assert_eq!(log[..2], [least, most.clone()]);
     assert!(log.len() > 2 && log.last() == Some(&most), "{log:?}");
     let found: Vec<_> = done(&scenes[0]).map(|cell| (cell.amount, cell.bake_shared)).collect();
-    assert_eq!(found, [(64, false), (64, true), (64, true), (64, true)]);
+    assert_eq!(found, [(64.0, false), (64.0, true), (64.0, true), (64.0, true)]);
     // Where a frame is what costs, the bake is not made again for each try.
     let budget = (Budget::Seconds(1e9), Bounded::Time);
     let (_, log) = cells(Dependencies { scene: true, ..NOTHING }, budget, &[0]);
@@ -336,7 +352,8 @@ type Asked<'s> = (&'s Scene, usize, u64, u64);
 fn baked(baker: &'static Baker, wanted: &[Asked<'_>]) -> Vec<String> {
     let mut bakes = Bakes::default();
     for &(scene, camera, seed, amount) in wanted {
-        let parameters = Parameters::defaults((&baker).parameters()).with_count("work", amount);
+        let amount = amount as f64;
+        let parameters = Parameters::defaults((&baker).parameters()).with_number("work", amount);
         let origin = Origin { scene: SceneHashes::new(scene), seed, amount };
         let (variant, baking, parameters) = (0, &baker as &dyn Baking, &parameters);
         let wanted = Wanted { variant, baking, parameters, origin, camera };

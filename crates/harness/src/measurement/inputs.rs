@@ -8,8 +8,8 @@ use crate::measurement::provenance::{Provenance, sha256};
 use crate::measurement::versions::Versions;
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Bounded, Budget, Variant};
+use crate::question::recorded_value::RecordedValue;
 use crate::question::references::{Reference, Source};
-use crate::registry;
 
 /// What decides the picture and its errors, and where its time was taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,7 +24,7 @@ pub(crate) struct Inputs {
     /// Method.
     pub(crate) method: String,
     /// Its parameters, without the one that a time budget sets.
-    pub(crate) parameters: BTreeMap<String, f64>,
+    pub(crate) parameters: BTreeMap<String, RecordedValue>,
     /// What it may cost.
     pub(crate) budget: Budget,
     /// Which time a budget bounds.
@@ -58,7 +58,7 @@ pub(crate) enum ReferenceInputs {
         /// Its id.
         method: String,
         /// Its parameters.
-        parameters: BTreeMap<String, f64>,
+        parameters: BTreeMap<String, RecordedValue>,
         /// Visibility of the last segment, where it is not the method's own.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         asked_visibility: Option<String>,
@@ -130,17 +130,9 @@ impl Inputs {
         }
     }
 
-    /// What is asked, as text: the same for inputs that differ only in parameters which one of them is
-    /// from before, where the other has them at the value that stands for that.
+    /// What is asked, as text.
     pub(crate) fn identity(&self) -> String {
-        let mut essential = self.clone();
-        leave_out_as_before(&self.method, &mut essential.parameters);
-        for reference in essential.references.values_mut() {
-            if let ReferenceInputs::Method { method, parameters, .. } = reference {
-                leave_out_as_before(method, parameters);
-            }
-        }
-        serde_json::to_string(&essential).expect("inputs are plain data")
+        serde_json::to_string(self).expect("inputs are plain data")
     }
 
     /// What is asked of a scene, whatever state it is in: of two answers of one machine, the later counts.
@@ -191,11 +183,4 @@ pub(crate) fn view(scene: &str, camera: Option<&str>) -> String {
         || scene.to_owned(),
         |camera| format!("{scene}-{}", camera.chars().map(safe).collect::<String>()),
     )
-}
-
-/// Drops the parameters of a method that a result from before they were introduced lacks.
-fn leave_out_as_before(method: &str, parameters: &mut BTreeMap<String, f64>) {
-    let Ok(method) = registry::method(method) else { return };
-    let info = |name: &str| method.parameters().iter().find(|info| info.name == name);
-    parameters.retain(|name, value| !info(name).is_some_and(|info| info.is_as_before(*value)));
 }

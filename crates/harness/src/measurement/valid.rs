@@ -13,6 +13,8 @@ use crate::question::settings;
 
 /// More than any run takes, 30 years.
 const MOST_SECONDS: f64 = 1e9;
+/// More than any run does.
+const MOST_WORK: f64 = 1e20;
 /// More than any error of radiance: the square of the largest 32-bit float.
 const MOST_ERROR: f64 = 1.2e77;
 /// More decibels than two such numbers can be apart.
@@ -50,6 +52,7 @@ pub(crate) fn check(cell: &Cell) -> Result<(), String> {
 }
 
 fn check_done(done: &Done, references: &BTreeMap<String, ReferenceInputs>) -> Result<(), String> {
+    within("amount", done.amount, f64::MIN_POSITIVE, MOST_WORK)?;
     within("bake_seconds", done.bake_seconds, 0.0, MOST_SECONDS)?;
     within("prepare_seconds", done.prepare_seconds, 0.0, MOST_SECONDS)?;
     within("step_seconds", done.step_seconds, f64::MIN_POSITIVE, MOST_SECONDS)?;
@@ -61,7 +64,8 @@ fn check_done(done: &Done, references: &BTreeMap<String, ReferenceInputs>) -> Re
         return Err("`errors` and `references` name different references".into());
     }
     done.errors.values().try_for_each(check_comparison)?;
-    for Checkpoint { step_seconds, display_rmse, .. } in &done.checkpoints {
+    for Checkpoint { amount, step_seconds, display_rmse } in &done.checkpoints {
+        within("amount", *amount, f64::MIN_POSITIVE, MOST_WORK)?;
         within("step_seconds", *step_seconds, f64::MIN_POSITIVE, MOST_SECONDS)?;
         for &rmse in display_rmse.values() {
             within("display_rmse", rmse, 0.0, 1.0)?;
@@ -136,7 +140,7 @@ pub(crate) mod tests {
         let comparison =
             Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
         let done = Done {
-            amount: 32,
+            amount: 32.0,
             bake_seconds: 0.0,
             bake_pass_seconds: BTreeMap::new(),
             bake_counters: BTreeMap::new(),
@@ -149,7 +153,7 @@ pub(crate) mod tests {
             image_sha256: sha256(b"picture"),
             errors: BTreeMap::from([("traced".into(), comparison)]),
             checkpoints: vec![Checkpoint {
-                amount: 16,
+                amount: 16.0,
                 step_seconds: 0.01,
                 display_rmse: BTreeMap::from([("traced".into(), 0.1)]),
             }],

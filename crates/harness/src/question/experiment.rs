@@ -12,7 +12,7 @@
 //! columns = ["counts", "time", "rmse"] # of the table; see columns.rs
 //! [[methods]]                        # any number; all combinations of the values run
 //! id = "…"
-//! parameters = { samples = [16, 64] }
+//! parameters = { samples = [16, 64] } # words in quotation marks
 //! visibility = "traced"              # or "ignored", or a list; left out: the method's own
 //! [[methods]]
 //! id = "…"
@@ -68,6 +68,7 @@ use crate::question::published::{self, Published};
 use crate::question::references::{self, Reference};
 use crate::question::settings;
 use crate::question::sweep::Entry;
+use crate::registry::Methods;
 
 /// Seed of every reference. No cell may use it: its samples would agree with the reference's.
 pub(crate) const REFERENCE_SEED: u64 = 0x7265_6665;
@@ -192,10 +193,10 @@ pub(crate) enum Profile {
 ///
 /// # Errors
 /// One line: the file, what is wrong, how to mend it.
-pub(crate) fn read(path: &Path, profile: Profile) -> Result<Experiment, String> {
+pub(crate) fn read(path: &Path, profile: Profile, methods: Methods) -> Result<Experiment, String> {
     let at = |reason: String| format!("{}: {reason}", path.display());
     let text = std::fs::read_to_string(path).map_err(|error| at(error.to_string()))?;
-    parse(&text, profile).map_err(at)
+    parse(&text, profile, methods).map_err(at)
 }
 
 /// Title and scenes of an experiment file, for lists.
@@ -208,7 +209,7 @@ pub(crate) fn summary(path: &Path) -> Result<(String, Vec<String>), String> {
     Ok((file.title, file.scenes))
 }
 
-fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
+fn parse(text: &str, profile: Profile, methods: Methods) -> Result<Experiment, String> {
     let file: File = toml::from_str(text).map_err(|error| mend(text, &error))?;
     let (name, scale) = match profile {
         Profile::Quick => ("quick", file.profiles.quick),
@@ -231,7 +232,7 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
     distinct("columns", file.columns.as_deref().unwrap_or_default())?;
     let mut variants = Vec::new();
     for entry in &file.methods {
-        for variant in entry.variants(&times)? {
+        for variant in entry.variants(methods, &times)? {
             variant.check_visibility(transport).map_err(|reason| format!("methods: {reason}"))?;
             if variants.contains(&variant) {
                 return Err(format!("methods: `{}` is listed twice", variant.label()));
@@ -239,7 +240,7 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
             variants.push(variant);
         }
     }
-    let references = references::parse(&file.references, transport)?;
+    let references = references::parse(&file.references, transport, methods)?;
     if file.errors.iter().any(|error| !(error.is_finite() && *error > 0.0)) {
         return Err("errors: RMSEs are positive numbers".into());
     }
@@ -250,7 +251,7 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
     file.crops.iter().try_for_each(Crop::check)?;
     let mut published = Vec::new();
     for entry in &file.published {
-        published.extend(entry.resolve(&variants, &times, &references)?);
+        published.extend(entry.resolve(methods, &variants, &times, &references)?);
     }
     Ok(Experiment {
         errors: file.errors,
@@ -264,7 +265,7 @@ fn parse(text: &str, profile: Profile) -> Result<Experiment, String> {
         cameras: file.cameras,
         transport,
         references,
-        baseline: baseline(file.baseline.as_ref(), &variants)?,
+        baseline: baseline(file.baseline.as_ref(), methods, &variants)?,
         variants,
         profile: name,
         scale,
@@ -332,9 +333,13 @@ fn times(written: &[Time]) -> Result<Vec<Budget>, String> {
         .collect()
 }
 
-fn baseline(entry: Option<&Entry>, variants: &[Variant]) -> Result<usize, String> {
+fn baseline(
+    entry: Option<&Entry>,
+    methods: Methods,
+    variants: &[Variant],
+) -> Result<usize, String> {
     let Some(entry) = entry else { return Ok(0) };
-    let wanted = entry.single().map_err(|reason| format!("baseline: {reason}"))?;
+    let wanted = entry.single(methods).map_err(|reason| format!("baseline: {reason}"))?;
     variants
         .iter()
         .position(|variant| *variant == wanted)
@@ -354,6 +359,7 @@ fn mend(text: &str, error: &toml::de::Error) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::registry::METHODS;
 
     const GOOD: &str = r#"
 title = "t"
@@ -376,12 +382,12 @@ seeds = [1]
 
     fn refused(from: &str, to: &str) -> String {
         assert!(GOOD.contains(from), "{from}");
-        parse(&GOOD.replace(from, to), Profile::Quick).expect_err(to)
+        parse(&GOOD.replace(from, to), Profile::Quick, METHODS).expect_err(to)
     }
 
     #[test]
     fn sweeps_are_written_out_and_the_baseline_is_found() {
-        let experiment = parse(GOOD, Profile::Quick).expect("good");
+        let experiment = parse(GOOD, Profile::Quick, METHODS).expect("good");
         let labels: Vec<_> = experiment.variants.iter().map(Variant::label).collect();
         assert_eq!(labels, ["reference samples=1", "reference samples=4", "reference samples=16"]);
         assert_eq!(experiment.baseline, 1);
@@ -397,7 +403,7 @@ seeds = [1]
             "traced",
         ]"#;
         let text = GOOD.replace("references = [\"traced\", \"ignored\"]", written);
-        let experiment = parse(&text, Profile::Quick).expect("good");
+        let experiment = parse(&text, Profile::Quick, METHODS).expect("good");
         let described: Vec<_> = experiment
             .references
             .iter()
@@ -424,7 +430,7 @@ seeds = [1]
         ] {
             let written = format!("references = [{{ name = {name}, method = {method} }}]");
             let text = GOOD.replace("references = [\"traced\", \"ignored\"]", &written);
-            let reason = parse(&text, Profile::Quick).expect_err(said);
+            let reason = parse(&text, Profile::Quick, METHODS).expect_err(said);
             assert!(reason.contains(said) && reason.lines().count() == 1, "{reason} / {said}");
         }
     }
@@ -456,7 +462,8 @@ seeds = [1]
             ("samples = 4 ", "samples = [1, 4]", "single values"),
             ("[1, 4, 16]", "[1, 1]", "listed twice"),
             ("[1, 4, 16]", "[]", "without values"),
-            ("[1, 4, 16]", "\"many\"", "must be a number"),
+            ("[1, 4, 16]", "[true]", "must be a number, a word or a list"),
+            ("[1, 4, 16]", "\"many\"", "must be a whole number"),
             ("scenes = [\"cornell\"]", "scenes = []", "at least one entry"),
             ("profiles.quick", "profiles.quik", "did you mean `quick`?"),
             ("{ samples = [1, 4, 16] }", "{}\nbudget = \"time\"", "no `times`"),
@@ -491,9 +498,10 @@ seeds = [1]
         }
         let timed = GOOD.replace("seeds = [1]", "seeds = [1]\ntimes = [1]");
         let built = timed.replace("{ samples = [1, 4, 16] }", "{}\nbudget = \"build_time\"");
-        let reason = parse(&built, Profile::Quick).expect_err("path tracing bakes nothing");
+        let reason =
+            parse(&built, Profile::Quick, METHODS).expect_err("path tracing bakes nothing");
         assert!(reason.contains("bakes nothing that grows with `samples`"), "{reason}");
-        let missing = parse(GOOD, Profile::Paper).expect_err("no paper profile");
+        let missing = parse(GOOD, Profile::Paper, METHODS).expect_err("no paper profile");
         assert!(missing.contains("[profiles.paper]"), "{missing}");
         let seed = refused("seeds = [1]", &format!("seeds = [{REFERENCE_SEED}]"));
         assert!(seed.contains("choose another"), "{seed}");

@@ -9,6 +9,7 @@ use crate::names;
 use crate::question::plan::{Budget, Variant};
 use crate::question::references::Reference;
 use crate::question::sweep;
+use crate::registry::Methods;
 
 /// A published number, found among the variants of an experiment.
 #[derive(Debug)]
@@ -66,12 +67,13 @@ impl Entry {
     /// One line where the experiment has no such variant, reference or metric.
     pub(crate) fn resolve(
         &self,
+        methods: Methods,
         variants: &[Variant],
         times: &[Budget],
         references: &[Reference],
     ) -> Result<Vec<Published>, String> {
         let at = |reason: String| format!("published ({}): {reason}", self.source);
-        let [wanted] = &self.method.variants(times).map_err(at)?[..] else {
+        let [wanted] = &self.method.variants(methods, times).map_err(at)?[..] else {
             return Err(at("parameters and times must be single values".into()));
         };
         let variant = variants.iter().position(|variant| variant == wanted);

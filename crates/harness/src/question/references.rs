@@ -6,6 +6,7 @@ use serde::Deserialize;
 use crate::names;
 use crate::question::plan::{Variant, no_choice};
 use crate::question::sweep;
+use crate::registry::Methods;
 
 /// A reference of an experiment.
 #[derive(Debug)]
@@ -60,10 +61,12 @@ struct Entry {
 pub(crate) fn parse(
     written: &[toml::Value],
     transport: Transport,
+    methods: Methods,
 ) -> Result<Vec<Reference>, String> {
     let mut references: Vec<Reference> = Vec::new();
     for value in written {
-        let reference = reference(value, transport).map_err(|r| format!("references: {r}"))?;
+        let reference =
+            reference(value, transport, methods).map_err(|r| format!("references: {r}"))?;
         if references.iter().any(|other| other.name == reference.name) {
             return Err(format!("references: `{}` is listed twice", reference.name));
         }
@@ -72,7 +75,11 @@ pub(crate) fn parse(
     Ok(references)
 }
 
-fn reference(value: &toml::Value, transport: Transport) -> Result<Reference, String> {
+fn reference(
+    value: &toml::Value,
+    transport: Transport,
+    methods: Methods,
+) -> Result<Reference, String> {
     let Entry { name, method } = match value {
         toml::Value::String(name) => Entry { name: name.clone(), method: None },
         toml::Value::Table(table) => {
@@ -94,7 +101,7 @@ fn reference(value: &toml::Value, transport: Transport) -> Result<Reference, Str
         }
         (Err(_), Some(method)) => {
             let at = |reason| format!("`{name}`: {reason}");
-            let variant = method.single().map_err(at)?;
+            let variant = method.single(methods).map_err(at)?;
             variant.check_visibility(transport).map_err(at)?;
             Source::Method(Box::new(variant))
         }

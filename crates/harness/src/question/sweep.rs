@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::question::plan::{Bounded, Budget, Variant};
 use crate::question::settings;
-use crate::registry;
+use crate::registry::{self, Methods};
 
 /// A method of an experiment file, with one value or a list of them for each parameter.
 #[derive(Deserialize)]
@@ -60,8 +60,13 @@ impl Entry {
     ///
     /// # Errors
     /// One line for an unknown method or parameter (the nearest is named) or a value out of range.
-    pub(crate) fn variants(&self, times: &[Budget]) -> Result<Vec<Variant>, String> {
-        let method = registry::method(&self.id)?;
+    pub(crate) fn variants(
+        &self,
+        methods: Methods,
+        times: &[Budget],
+    ) -> Result<Vec<Variant>, String> {
+        let place = registry::place(methods, &self.id)?;
+        let method = methods[place];
         let budgets = self.budgets(method, times)?;
         let grid = self.grid()?;
         if grid.is_empty() {
@@ -70,7 +75,7 @@ impl Entry {
         let is_list = |name: &str| matches!(self.parameters.get(name), Some(toml::Value::Array(_)));
         let names = method.parameters().iter().map(|info| info.name);
         let swept = names.into_iter().find(|name| is_list(name));
-        let swept = swept.unwrap_or(method.cost_parameter());
+        let swept = swept.unwrap_or(method.cost().parameter);
         let mut variants = Vec::new();
         for visibility in self.visibilities(method.visibility())? {
             for row in &grid {
@@ -79,7 +84,7 @@ impl Entry {
                 variants.extend(budgets.iter().map(|&budget| {
                     let parameters = parameters.clone();
                     let bounded = self.budget.bounded().unwrap_or_default();
-                    Variant { method, parameters, swept, visibility, budget, bounded }
+                    Variant { method, place, parameters, swept, visibility, budget, bounded }
                 }));
             }
         }
@@ -90,11 +95,11 @@ impl Entry {
     ///
     /// # Errors
     /// As [`Self::variants`], and for an entry that stands for several.
-    pub(crate) fn single(&self) -> Result<Variant, String> {
+    pub(crate) fn single(&self, methods: Methods) -> Result<Variant, String> {
         if matches!(self.budget, Kind::Time) {
             return Err(format!("`{}` has a time budget: set its parameters instead", self.id));
         }
-        match <[Variant; 1]>::try_from(self.variants(&[])?) {
+        match <[Variant; 1]>::try_from(self.variants(methods, &[])?) {
             Ok([variant]) => Ok(variant),
             Err(_) => Err("parameters and visibility must be single values".into()),
         }
@@ -118,7 +123,7 @@ impl Entry {
         times: &'b [Budget],
     ) -> Result<&'b [Budget], String> {
         let Some(bounded) = self.budget.bounded() else { return Ok(&[Budget::Count]) };
-        let (id, word, cost) = (&self.id, bounded.word(), method.cost_parameter());
+        let (id, word, cost) = (&self.id, bounded.word(), method.cost().parameter);
         let refuse = |reason: String| Err(format!("methods: `{id}` has a {word} budget, {reason}"));
         let builds = || method.baking().is_some_and(|baking| baking.depends_on().amount);
         if times.is_empty() {
@@ -144,7 +149,7 @@ impl Entry {
             let mut extended = Vec::with_capacity(grid.len() * values.len());
             for row in &grid {
                 for value in values {
-                    extended.push([row, &[(key.as_str(), number(key, value)?)][..]].concat());
+                    extended.push([row, &[(key.as_str(), text(key, value)?)][..]].concat());
                 }
             }
             grid = extended;
@@ -153,10 +158,11 @@ impl Entry {
     }
 }
 
-fn number(key: &str, value: &toml::Value) -> Result<String, String> {
+fn text(key: &str, value: &toml::Value) -> Result<String, String> {
     match value {
+        toml::Value::String(word) => Ok(word.clone()),
         toml::Value::Integer(number) => Ok(number.to_string()),
         toml::Value::Float(number) => Ok(number.to_string()),
-        other => Err(format!("parameter `{key}` = `{other}`: must be a number or a list of them")),
+        other => Err(format!("parameter `{key}` = `{other}`: must be a number, a word or a list")),
     }
 }

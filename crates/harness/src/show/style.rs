@@ -3,8 +3,6 @@
 
 use plotters::style::RGBColor;
 
-use crate::registry;
-
 /// The palette of Okabe and Ito (2008), told apart by colour-blind readers, without its yellow.
 const COLORS: [RGBColor; 7] = [
     RGBColor(0, 0, 0),
@@ -29,10 +27,9 @@ pub(crate) enum Marker {
 const MARKERS: [Marker; 5] =
     [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Cross];
 
-/// Colour and marker of a method. Both cycles differ in length: 35 methods differ.
-pub(crate) fn method_style(id: &str) -> (RGBColor, Marker) {
-    let position = registry::position(id);
-    (COLORS[position % COLORS.len()], MARKERS[position % MARKERS.len()])
+/// Colour and marker of the method at a place in the registry. Both cycles differ in length: 35 methods differ.
+pub(crate) fn method_style(place: usize) -> (RGBColor, Marker) {
+    (COLORS[place % COLORS.len()], MARKERS[place % MARKERS.len()])
 }
 
 /// Dash and gap in pixels of the n-th curve of one method; `None` for a full line.

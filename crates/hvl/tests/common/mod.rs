@@ -53,6 +53,7 @@ pub(crate) fn render(
     texts: &[(&str, &str)],
     settings: &Settings,
     visibility: Visibility,
+    seed: u64,
 ) -> Picture {
     let scene = manylights_scene::load(scene, None).expect("built in");
     let camera = &scene.cameras[0];
@@ -62,7 +63,7 @@ pub(crate) fn render(
         camera,
         resolution,
         transport: Transport::Indirect { bounces: 1, visibility },
-        seed: 0,
+        seed,
         gpu: Some(&on_gpu),
     };
     let parameters =
@@ -71,7 +72,7 @@ pub(crate) fn render(
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
     let surfaces = GPU.read(on_gpu.surfaces()).expect("read-back");
-    let (lights, _) = virtual_spheres(&on_gpu, &scene, settings, 0).expect("lights");
+    let (lights, _) = virtual_spheres(&on_gpu, &scene, settings, seed).expect("lights");
     Picture { image, surfaces, eye: camera.position.as_dvec3(), lights }
 }
 

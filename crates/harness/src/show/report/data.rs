@@ -32,7 +32,7 @@ pub(super) fn data(report: &Report<'_>, pictures: &[Pictures<'_>], csv: String) 
             "label": variant.label(),
             "method": variant.method.id(),
             "title": variant.method.title(),
-            "color": color(variant.method.id()),
+            "color": color(variant.place),
         })).collect::<Vec<_>>(),
         "baseline": experiment.baseline,
         "machine": machine,
@@ -154,7 +154,7 @@ fn whole(cell: &Cell, machine: &Provenance) -> Value {
     value
 }
 
-fn color(method: &str) -> String {
-    let (color, _) = method_style(method);
+fn color(place: usize) -> String {
+    let (color, _) = method_style(place);
     format!("#{:02x}{:02x}{:02x}", color.0, color.1, color.2)
 }

@@ -14,6 +14,7 @@ use crate::measurement::scene_cells::SceneCells;
 use crate::output::say;
 use crate::question::experiment::{self, Experiment, Profile};
 use crate::question::plan::Turn;
+use crate::registry::Methods;
 
 /// What `manylights run` left in a folder.
 pub(crate) struct Loaded {
@@ -27,7 +28,7 @@ pub(crate) struct Loaded {
 ///
 /// # Errors
 /// One line where one of them is missing or does not belong to the others.
-pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
+pub(crate) fn load(directory: &Path, methods: Methods) -> Result<Loaded, Failure> {
     let file = directory.join("experiment.toml");
     let refuse = |reason: &str| {
         Failure::input(format!(
@@ -38,7 +39,7 @@ pub(crate) fn load(directory: &Path) -> Result<Loaded, Failure> {
     };
     let cells = lines::read(&directory.join("cells.jsonl"))?.told("left out");
     let last = cells.last().ok_or_else(|| refuse("there are no cells in cells.jsonl"))?;
-    let experiment = profile_of(last, &file)?
+    let experiment = profile_of(last, &file, methods)?
         .ok_or_else(|| refuse("the last cell is of another experiment or profile"))?;
     let (mut scenes, foreign) = scenes(&experiment, &cells)
         .map_err(|reason| Failure::input(format!("{}: {reason}", directory.display())))?;
@@ -111,10 +112,10 @@ fn is_named(entry: &str, name: &str) -> bool {
 type Key<'c> = (u32, u64, usize, &'c str);
 
 /// The experiment in the profile that asks for `cell`.
-fn profile_of(cell: &Cell, file: &Path) -> Result<Option<Experiment>, Failure> {
+fn profile_of(cell: &Cell, file: &Path, methods: Methods) -> Result<Option<Experiment>, Failure> {
     let mut refused = None;
     for &profile in Profile::value_variants() {
-        match experiment::read(file, profile) {
+        match experiment::read(file, profile, methods) {
             Ok(experiment) if turn_of(cell, &experiment).is_some() => return Ok(Some(experiment)),
             Ok(_) => refused = Some(Ok(None)),
             Err(reason) => refused = refused.or(Some(Err(Failure::input(reason)))),

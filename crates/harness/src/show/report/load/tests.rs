@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::*;
 use crate::answer::regression;
 use crate::answer::rows::SceneAnswer;
+use crate::registry::METHODS;
 use crate::show::curves::Figure;
 use crate::show::table;
 
@@ -17,7 +18,7 @@ fn results() -> PathBuf {
 fn experiment(folder: &Path, cells: &[Cell]) -> Experiment {
     let last = cells.last().expect("cells");
     let file = folder.join("experiment.toml");
-    profile_of(last, &file)
+    profile_of(last, &file, METHODS)
         .expect("readable")
         .unwrap_or_else(|| panic!("{} asks it", file.display()))
 }
