@@ -118,7 +118,7 @@ fn caches_decide_nothing() {
     assert_eq!(errors("cold"), errors("warm"));
     assert_ne!(errors("cold"), errors("more"));
     // Two slices of 16, not the 4 that were asked for.
-    assert!(place.read("warm/table.md").contains("references of 32 samples a pixel"));
+    assert!(place.read("warm/table.md").contains("32 samples a pixel"));
 
     // A finished run renders nothing, whatever became of the cache.
     let (journal, tables) = (place.read("warm/cells.jsonl"), place.tables("warm"));
