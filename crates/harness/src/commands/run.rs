@@ -145,7 +145,7 @@ pub(crate) fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec
     }
     experiment
         .check_scenes(scenes.iter().map(|scene| scene.name.as_str()))
-        .map_err(|reason| Failure::input(reason))?;
+        .map_err(Failure::input)?;
     Ok(scenes)
 }
 

@@ -75,7 +75,6 @@ impl Session<'_> {
             method(variant).baking().map(|baking| baking.depends_on()).unwrap_or_default()
         });
         let amounts = self.replayed_amounts(scene, name);
-        let references;
         let mut run = SceneRun {
             session: self,
             stage: &stage,
@@ -88,7 +87,7 @@ impl Session<'_> {
             refused: BTreeMap::new(),
             ran: false,
         };
-        references = match run.kept_references(&turns) {
+        let references = match run.kept_references(&turns) {
             Some(kept) => kept,
             None => {
                 let cache = run.session.cache;
