@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 use manylights_gpu::{Center, Shadows};
 use manylights_path_tracer::Settings;
 use manylights_scene::bvh::Bvh;
-use manylights_scene::{Camera, Light, Material, Scene, Transport, Triangle, Vertex};
+use manylights_scene::{Camera, Light, Material, Scene, Triangle, Vertex};
 use manylights_tests::Stage;
 
 /// Of the fin, in units of the scene's largest coordinate: 52 times the distance at which rays start.
@@ -53,12 +53,17 @@ fn a_low_fin_shades_what_is_behind_it() {
         assert!(unseen.into_iter().all(|unseen| unseen == fin), "on the host, fin: {fin}");
 
         let shadows = Shadows::new(&stage.on_gpu, scene).expect("the hierarchy fits");
-        let hidden = shadows.hidden_lights(&stage.on_gpu, &[Center::new(LIGHT, Vec3::X)]);
+        let hidden = shadows.hidden_lights(&[Center::new(LIGHT, Vec3::X)]);
         let hidden = hidden.expect("a pass");
         assert!(hidden.iter().all(|&hidden| hidden == fin), "on the adapter, fin: {fin}");
 
         let resolution = stage.on_gpu.resolution();
-        let settings = Settings { transport: Transport::Direct, resolution, seed: 0, samples: 16 };
+        let settings = Settings {
+            transport: "direct".parse().expect("a transport"),
+            resolution,
+            seed: 0,
+            samples: 16,
+        };
         let direct =
             manylights_path_tracer::render(scene, &scene.cameras[0], &settings, None, &mut |_| {});
         let pixels = direct.expect("a picture").image.pixels;
@@ -77,7 +82,7 @@ fn a_wall_hides_what_lies_close_behind_it() {
         let seen =
             |s: &manylights_gpu::SurfaceRecord| bvh.sees([s.position, Vec3::Y], [light, Vec3::X]);
         assert!(stage.surfaces().iter().all(|s| seen(s) == visible), "on the host, {depth} m");
-        let hidden = shadows.hidden_lights(&stage.on_gpu, &[Center::new(light, Vec3::X)]);
+        let hidden = shadows.hidden_lights(&[Center::new(light, Vec3::X)]);
         let hidden = hidden.expect("a pass");
         assert!(hidden.iter().all(|hidden| *hidden != visible), "on the adapter, {depth} m");
     }
