@@ -53,7 +53,7 @@ fn picture(
     [amount, seed]: [u64; 2],
 ) -> Option<RadianceImage> {
     let what = format!("{} on {}, {transport:?}", method.id(), stage.scene.name);
-    let parameters = [(method.cost_parameter(), &*amount.to_string())];
+    let parameters = [(method.cost().parameter, &*amount.to_string())];
     match stage.prepare(method, &parameters, transport, seed) {
         Ok(run) => Some(finished(run, method.counters(), &what)),
         Err(Error::Declined(reason)) => {
@@ -72,7 +72,7 @@ fn baked(
     transport: Transport,
 ) -> RadianceImage {
     let what = format!("{} on {}, {transport:?}, baked", method.id(), stage.scene.name);
-    let parameters = Parameters::new(method.parameters(), [(method.cost_parameter(), "33")]);
+    let parameters = Parameters::new(method.parameters(), [(method.cost().parameter, "33")]);
     let parameters = parameters.expect("in range");
     // Of another seed, where it may serve both.
     let first = if baking.depends_on().seed { 1 } else { 2 };

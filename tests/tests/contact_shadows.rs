@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 use manylights_gpu::{Center, Shadows};
 use manylights_path_tracer::Settings;
 use manylights_scene::bvh::Bvh;
-use manylights_scene::{Camera, Light, Material, Scene, Triangle, Vertex};
+use manylights_scene::{Camera, Light, Material, Scene, Transport, Triangle, Vertex, Visibility};
 use manylights_tests::Stage;
 
 /// Of the fin, in units of the scene's largest coordinate: 52 times the distance at which rays start.
@@ -59,7 +59,7 @@ fn a_low_fin_shades_what_is_behind_it() {
 
         let resolution = stage.on_gpu.resolution();
         let settings = Settings {
-            transport: "direct".parse().expect("a transport"),
+            transport: Transport::Direct { visibility: Visibility::Traced },
             resolution,
             seed: 0,
             samples: 16,

@@ -9,8 +9,8 @@ use manylights_harness::registry::Methods;
 /// Grey of an unknown brightness, known better with more guesses.
 mod dummy {
     use manylights_method::{
-        CounterInfo, Error, Frame, Method, ParameterInfo, ParameterKind, Parameters, PassTime,
-        Processor, Progress, Run,
+        Cost, CounterInfo, Direction, Error, Frame, Method, ParameterInfo, ParameterKind,
+        Parameters, PassTime, Processor, Progress, Run,
     };
     use manylights_metrics::RadianceImage;
     use manylights_scene::Visibility;
@@ -39,6 +39,7 @@ mod dummy {
 
         fn parameters(&self) -> &'static [ParameterInfo] {
             &[ParameterInfo {
+                formerly: None,
                 name: "guesses",
                 help: "of the brightness",
                 kind: ParameterKind::Count { default: 4, min: 1, max: 1 << 20 },
@@ -49,8 +50,8 @@ mod dummy {
             &[CounterInfo { name: "guesses", help: "made of the brightness" }]
         }
 
-        fn cost_parameter(&self) -> &'static str {
-            "guesses"
+        fn cost(&self) -> Cost {
+            Cost { parameter: "guesses", grows: Direction::Up }
         }
 
         fn visibility(&self) -> Visibility {

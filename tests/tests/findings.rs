@@ -15,7 +15,7 @@ const HVL: &[(&str, &str)] = &[("bands", "5"), ("emission_bands", "3")];
 /// Nothing expanded that need not be.
 const FINE: &[(&str, &str)] = &[("bands", "15"), ("emission_bands", "0")];
 /// Samples of lobe and cone: of the lobe alone, as he takes them, they are noise on narrow cones.
-const VSL: &[(&str, &str)] = &[("samples", "25"), ("sampling", "2")];
+const VSL: &[(&str, &str)] = &[("directions", "25"), ("sampling", "both")];
 
 /// Method, parameters, count.
 type Column<'a> = (&'a dyn Method, &'a [(&'a str, &'a str)], &'a str);

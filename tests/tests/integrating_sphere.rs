@@ -51,18 +51,20 @@ fn points() {
 fn spheres_by_samples() {
     let bias = |lights, sampling, radius| {
         let parameters =
-            [("lights", lights), ("samples", "4"), ("sampling", sampling), ("radius", radius)];
+            [("lights", lights), ("directions", "4"), ("sampling", sampling), ("radius", radius)];
         let bias = mean(&deviations(16, &VirtualLights(Vsl), &parameters));
         println!("{lights} lights, radius {radius}, sampling {sampling}: {bias:+.2e}");
         bias
     };
-    let [coarse, fine] = ["2048", "32768"].map(|lights| bias(lights, "1", "2"));
+    let [coarse, fine] = ["2048", "32768"].map(|lights| bias(lights, "cone", "r2"));
     // Six maps of 19² cells: r/R by thesis 5.10 and 5.12.
     let angle = SQRT_2 * FRAC_PI_2 / 19.0;
     let expected = -4.0 / (3.0 * PI) * (angle + angle.powi(3) / 3.0);
     assert!((coarse / expected - 1.0).abs() < 0.15, "{coarse}, {expected}");
     assert!((3.0..5.0).contains(&(coarse / fine)), "{coarse}, {fine}");
-    for (sampling, radius) in [("1", "0"), ("1", "1"), ("0", "2"), ("2", "2")] {
+    for (sampling, radius) in
+        [("cone", "neighbours"), ("cone", "r1"), ("brdf", "r2"), ("both", "r2")]
+    {
         let bias = bias("32768", sampling, radius);
         assert!(bias.abs() < 0.02, "sampling {sampling}, radius {radius}: {bias}");
     }
@@ -72,8 +74,8 @@ fn spheres_by_samples() {
 /// By every rule of radii: few pixels are near enough to a sphere for its horizon.
 #[test]
 fn spheres_by_harmonics() {
-    for radius in ["0", "1", "2", "3"] {
-        let scale = if radius == "3" { 0.02 * RADIUS } else { 1.0 }.to_string();
+    for radius in ["neighbours", "r1", "r2", "fixed"] {
+        let scale = if radius == "fixed" { 0.02 * RADIUS } else { 1.0 }.to_string();
         let parameters = [("lights", "4096"), ("radius", radius), ("scale", &scale)];
         let found = deviations(32, &VirtualLights(Hvl), &parameters);
         let [low, median, high] = [5, 50, 95].map(|percent| found[found.len() * percent / 100]);
@@ -89,9 +91,9 @@ fn spheres_by_harmonics() {
 /// The excess falls with the radius: to 0.36 to 0.38 with 16 times the lights, a quarter of the radius.
 #[test]
 fn spheres_by_zonal_harmonics() {
-    for radius in ["0", "1", "2"] {
+    for radius in ["neighbours", "r1", "r2"] {
         let [few, many] = ["4096", "65536"].map(|lights| {
-            let parameters = [("lights", lights), ("radius", radius), ("form", "1")];
+            let parameters = [("lights", lights), ("radius", radius), ("form", "zonal")];
             mean(&deviations(32, &VirtualLights(Hvl), &parameters))
         });
         println!("radius {radius}: {few:+.2e}, {many:+.2e}");

@@ -55,7 +55,8 @@ fn flux_leaves_with_the_cosine_of_the_geometric_normal() {
     // The error of the limit is r²/d², below 1e-6.
     let spheres = [VirtualSphere { light: light(), radius: 1e-3 }];
     for sampling in [Sampling::Cone, Sampling::Both] {
-        let settings = manylights_vsl::Settings { sampling, samples: 4096, ..Default::default() };
+        let settings =
+            manylights_vsl::Settings { sampling, directions: 4096, ..Default::default() };
         let found = manylights_vsl::gather(&GPU, &surfaces, CAMERA, &spheres, &settings, 0);
         assert_close("samples", found.expect("a gather")[0], expected(), 1e-4);
     }

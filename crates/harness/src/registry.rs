@@ -34,9 +34,9 @@ pub(crate) fn place(methods: Methods, id: &str) -> Result<usize, String> {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
+    use std::collections::{BTreeMap, BTreeSet};
 
-    use manylights_method::ParameterKind;
+    use manylights_method::{Amounts, Direction, ParameterInfo, ParameterKind};
 
     use super::*;
 
@@ -75,12 +75,44 @@ mod tests {
     }
 
     #[test]
-    fn cost_parameters_are_counts() {
+    fn costs_are_positive_numbers() {
         for method in METHODS {
-            let cost = method.cost_parameter();
-            let declared = method.parameters().iter().find(|info| info.name == cost);
-            let kind = declared.map(|info| info.kind);
-            assert!(matches!(kind, Some(ParameterKind::Count { .. })), "{} {cost}", method.id());
+            let cost = method.cost();
+            assert!(Amounts::new(cost, method.parameters()).is_some(), "{} {cost:?}", method.id());
+            let declared = method.parameters().iter().find(|info| info.name == cost.parameter);
+            let counts =
+                matches!(declared.map(|info| info.kind), Some(ParameterKind::Count { .. }));
+            let along_progress = counts && cost.grows == Direction::Up;
+            assert!(along_progress || !method.is_progressive(), "{} {cost:?}", method.id());
+        }
+    }
+
+    #[test]
+    fn choices_are_documented_words() {
+        for info in METHODS.iter().flat_map(|method| method.parameters()) {
+            let ParameterKind::Choice { default, words } = info.kind else { continue };
+            let distinct: BTreeSet<_> = words.iter().map(|known| known.word).collect();
+            assert_eq!(distinct.len(), words.len(), "{} has a word twice", info.name);
+            assert!(distinct.contains(default), "{}: {default}", info.name);
+            for known in words {
+                assert!(well_formed(known.word), "{}={}", info.name, known.word);
+                assert!(known.help.len() > 5, "{}={} has no help", info.name, known.word);
+            }
+        }
+    }
+
+    /// Bounds and defaults of numbers are a method's own.
+    #[test]
+    fn a_name_means_one_thing() {
+        let sort = |info: &ParameterInfo| match info.kind {
+            ParameterKind::Count { .. } => ("count", None),
+            ParameterKind::Real { .. } => ("real", None),
+            ParameterKind::Choice { words, .. } => ("choice", Some(words)),
+        };
+        let mut meanings = BTreeMap::new();
+        for info in METHODS.iter().flat_map(|method| method.parameters()) {
+            let meaning = (sort(info), info.help);
+            assert_eq!(*meanings.entry(info.name).or_insert(meaning), meaning, "{}", info.name);
         }
     }
 

@@ -20,6 +20,13 @@ fn lists_are_json_where_asked() {
         assert!(!counters.is_empty(), "{method}");
         assert!(counters.iter().all(|c| c["name"].is_string() && c["help"].is_string()));
     }
+    let hvl = methods.as_array().expect("a list").iter().find(|method| method["id"] == "hvl");
+    let parameters = hvl.expect("registered")["parameters"].as_array().expect("a list");
+    let form = parameters.iter().find(|p| p["name"] == "form").expect("a parameter of hvl");
+    assert_eq!((&form["kind"], &form["default"]), (&"choice".into(), &"full".into()));
+    let words = form["words"].as_array().expect("a list");
+    assert_eq!(words.iter().map(|w| &w["word"]).collect::<Vec<_>>(), ["full", "zonal"]);
+    assert!(words.iter().all(|word| word["help"].is_string()));
     let scenes = json(&["list", "scenes", "--json"]);
     for scene in ["integrating-sphere", "cornell", "cornell-glossy", "atrium", "trio"] {
         assert!(scenes.as_array().expect("a list").iter().any(|s| s["name"] == scene), "{scene}");
@@ -35,7 +42,10 @@ fn lists_for_people_leave_standard_output_to_json() {
     let output = manylights(&["list", "methods"]);
     succeeded(&output);
     assert!(output.stdout.is_empty());
-    assert!(String::from_utf8_lossy(&output.stderr).contains("--set samples=N"));
+    let text = String::from_utf8_lossy(&output.stderr);
+    for part in ["--set samples=N", "--set form=WORD", "(default full)\n      full: any lobe"] {
+        assert!(text.contains(part), "{text}");
+    }
 }
 
 #[test]
@@ -148,6 +158,59 @@ fn transports_are_rendered_or_refused_with_a_reason() {
     std::fs::write(&lamp, text).expect("writable");
     let change = ["--scene", lamp.as_str(), "--transport", "direct+indirect-1"];
     render_with(&change, "this scene has emissive triangles");
+}
+
+/// What was a number once, or had another name, is answered with the word of today.
+#[test]
+fn words_are_said_as_words() {
+    for (method, set, said) in [
+        ("hvl", "form=1", "parameter `form` = `1`: say form=zonal (words: full, zonal)"),
+        ("hvl", "window=4", "say window=weakest"),
+        ("hvl", "horizon=1", "say horizon=exact"),
+        ("hvl", "radius=0", "say radius=neighbours"),
+        ("vsl", "sampling=0", "say sampling=brdf"),
+        ("vsgl", "lobe=0", "say lobe=anisotropic"),
+        ("hvl", "form=2", "must be one of the words full, zonal"),
+        ("hvl", "form=zonl", "did you mean `zonal`?"),
+        ("vpl", "radius=0.5", "is now called `attenuation_radius`"),
+        ("vsl", "samples=9", "is now called `directions`"),
+        ("vsl", "lights=few", "a whole number"),
+    ] {
+        let arguments = ["render", "--scene", "cornell", "--method", method, "--set", set];
+        refused(&[&arguments[..], &["-o", "never-written.exr"]].concat(), said);
+    }
+}
+
+#[test]
+fn words_are_swept_like_numbers() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let file = folder.path().join("experiment.toml");
+    let path = file.to_str().expect("UTF-8");
+    let write = |forms: &str| {
+        let text = format!(
+            "title = \"t\"\nquestion = \"q\"\nscenes = [\"cornell\"]\n\
+             transport = \"indirect-1\"\nreferences = [\"traced\"]\n\
+             [[methods]]\nid = \"hvl\"\nparameters = {{ form = {forms}, lights = 100 }}\n\
+             [profiles.quick]\nresolution = [16, 16]\nreference_samples = 16\n\
+             repetitions = 1\nseeds = [1]\n"
+        );
+        std::fs::write(&file, text).expect("writable");
+    };
+    write(r#"["zonal", "full"]"#);
+    let jobs = json(&["plan", path, "--profile", "quick", "--json"]);
+    let labels: Vec<_> =
+        jobs.as_array().expect("a list").iter().map(|job| job["label"].as_str()).collect();
+    let expected = ["zonal", "full"].map(|form| format!("cornell hvl form={form} lights=100"));
+    assert_eq!(labels, expected.each_ref().map(|label| Some(label.as_str())));
+    for (forms, said) in [
+        ("[0, 1]", "parameter `form` = `0`: say form=full (words: full, zonal)"),
+        ("1.0", "say form=zonal"),
+        ("\"zone\"", "did you mean `zonal`?"),
+        ("[\"full\", true]", "must be a number, a word or a list"),
+    ] {
+        write(forms);
+        refused(&["plan", path, "--profile", "quick"], said);
+    }
 }
 
 #[test]

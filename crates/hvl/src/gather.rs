@@ -137,7 +137,7 @@ impl Materials {
     pub(crate) fn declined(&self, settings: &Settings) -> Option<&'static str> {
         match (self.measured, settings) {
             (true, Settings { form: Form::Zonal, .. }) => {
-                Some("one circular lobe is no measured material: set form = 0")
+                Some("one circular lobe is no measured material: set form=full")
             }
             (true, Settings { emission_bands: 0, .. }) => {
                 Some("measured materials emit by expansion alone: set emission_bands ≥ 1")

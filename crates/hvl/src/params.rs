@@ -1,37 +1,65 @@
 use manylights_harmonics::window::Window;
-use manylights_method::{ParameterInfo, ParameterKind, Parameters};
+use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
 use manylights_reflectance::{Damping, Form};
-use manylights_virtual_lights::RadiusRule;
+use manylights_virtual_lights::{LIGHTS, RADIUS, RadiusRule, SCALE};
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
-    ParameterInfo::LIGHTS,
+    LIGHTS,
     ParameterInfo {
         name: "bands",
+        formerly: None,
         help: "bands of the shaded point's reflectance, l = 0 … bands − 1",
         kind: ParameterKind::Count { default: 5, min: 1, max: MAX_BANDS as u64 },
     },
     ParameterInfo {
         name: "form",
-        help: "0 = any lobe, bands² coefficients; 1 = one circular lobe, bands of them (thesis 5.2.7)",
-        kind: ParameterKind::Count { default: 0, min: 0, max: 1 },
+        formerly: None,
+        help: "of the shaded point's reflectance",
+        kind: ParameterKind::Choice {
+            default: "full",
+            words: &[
+                ChoiceWord { word: "full", help: "any lobe, bands² coefficients" },
+                ChoiceWord { word: "zonal", help: "a circular lobe, bands of them (thesis 5.2.7)" },
+            ],
+        },
     },
     ParameterInfo {
         name: "emission_bands",
+        formerly: None,
         help: "bands of a glossy light's emission (thesis 5.6); 1 = isotropic, 0 = not expanded",
         kind: ParameterKind::Count { default: 0, min: 0, max: MAX_BANDS as u64 },
     },
     ParameterInfo {
         name: "window",
-        help: "on the bands of the reflectance (thesis 2.45): 0 = none, 1 = Hann, 2 = Lanczos, \
-               3 = Hamming, 4 = the weakest sinc⁴ under which a lobe is not negative",
-        kind: ParameterKind::Count { default: 0, min: 0, max: 4 },
+        formerly: None,
+        help: "on the bands of the reflectance (thesis 2.45)",
+        kind: ParameterKind::Choice {
+            default: "none",
+            words: &[
+                ChoiceWord { word: "none", help: "all bands as they are" },
+                ChoiceWord { word: "hann", help: "Hann's" },
+                ChoiceWord { word: "lanczos", help: "Lanczos'" },
+                ChoiceWord { word: "hamming", help: "Hamming's" },
+                ChoiceWord {
+                    word: "weakest",
+                    help: "the weakest sinc⁴ that leaves no negative lobe",
+                },
+            ],
+        },
     },
-    ParameterInfo::RADIUS,
-    ParameterInfo::SCALE,
+    RADIUS,
+    SCALE,
     ParameterInfo {
         name: "horizon",
-        help: "share of a sphere above the horizon: 0 = smoothstep (thesis 5.8), 1 = exact",
-        kind: ParameterKind::Count { default: 0, min: 0, max: 1 },
+        formerly: None,
+        help: "share of a sphere above the horizon",
+        kind: ParameterKind::Choice {
+            default: "smooth",
+            words: &[
+                ChoiceWord { word: "smooth", help: "a smoothstep of the angle (thesis 5.8)" },
+                ChoiceWord { word: "exact", help: "of its solid angle (Oat and Sander 2007)" },
+            ],
+        },
     },
 ];
 
@@ -80,24 +108,63 @@ impl Settings {
         Self {
             lights: parameters.count("lights"),
             bands: parameters.count("bands") as usize,
-            form: match parameters.count("form") {
-                0 => Form::Full,
-                _ => Form::Zonal,
-            },
+            form: parameters.choice("form", &[("full", Form::Full), ("zonal", Form::Zonal)]),
             emission_bands: parameters.count("emission_bands") as usize,
-            damping: match parameters.count("window") {
-                0 => Damping::None,
-                1 => Damping::Window(Window::Hann),
-                2 => Damping::Window(Window::Lanczos),
-                3 => Damping::Window(Window::Hamming),
-                _ => Damping::Weakest,
-            },
-            radius: RadiusRule::ALL[parameters.count("radius") as usize],
+            damping: parameters.choice(
+                "window",
+                &[
+                    ("none", Damping::None),
+                    ("hann", Damping::Window(Window::Hann)),
+                    ("lanczos", Damping::Window(Window::Lanczos)),
+                    ("hamming", Damping::Window(Window::Hamming)),
+                    ("weakest", Damping::Weakest),
+                ],
+            ),
+            radius: RadiusRule::chosen(parameters),
             scale: parameters.real("scale") as f32,
-            horizon: match parameters.count("horizon") {
-                0 => Horizon::Smooth,
-                _ => Horizon::Exact,
-            },
+            horizon: parameters
+                .choice("horizon", &[("smooth", Horizon::Smooth), ("exact", Horizon::Exact)]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(name: &str, word: &str) -> Settings {
+        Settings::new(&Parameters::new(PARAMETERS, [(name, word)]).expect("a word"))
+    }
+
+    #[test]
+    fn every_word_means_what_it_says() {
+        let plain = Settings::default();
+        let windows = [
+            ("none", Damping::None),
+            ("hann", Damping::Window(Window::Hann)),
+            ("lanczos", Damping::Window(Window::Lanczos)),
+            ("hamming", Damping::Window(Window::Hamming)),
+            ("weakest", Damping::Weakest),
+        ];
+        for (word, damping) in windows {
+            assert_eq!(set("window", word), Settings { damping, ..plain });
+        }
+        for (word, form) in [("full", Form::Full), ("zonal", Form::Zonal)] {
+            assert_eq!(set("form", word), Settings { form, ..plain });
+        }
+        for (word, horizon) in [("smooth", Horizon::Smooth), ("exact", Horizon::Exact)] {
+            assert_eq!(set("horizon", word), Settings { horizon, ..plain });
+        }
+    }
+
+    #[test]
+    fn no_word_is_without_a_meaning() {
+        for info in PARAMETERS {
+            let ParameterKind::Choice { words, .. } = info.kind else { continue };
+            let settings: Vec<_> = words.iter().map(|known| set(info.name, known.word)).collect();
+            for (index, one) in settings.iter().enumerate() {
+                assert!(!settings[..index].contains(one), "{}: {one:?} twice", info.name);
+            }
         }
     }
 }

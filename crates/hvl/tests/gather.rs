@@ -132,10 +132,10 @@ fn every_parameter_reaches_the_picture() {
     let neighbours = Settings { radius: RadiusRule::MapNeighbours, scale: 1.7, ..settings };
     let fixed = Settings { radius: RadiusRule::Fixed, scale: 0.25, damping: hann, ..settings };
     let cases: [(&[(&str, &str)], Settings); 4] = [
-        (&[("form", "1"), ("bands", "9")], zonal),
-        (&[("emission_bands", "3"), ("horizon", "1")], expanded),
-        (&[("radius", "1"), ("scale", "1.7")], neighbours),
-        (&[("radius", "3"), ("scale", "0.25"), ("window", "1")], fixed),
+        (&[("form", "zonal"), ("bands", "9")], zonal),
+        (&[("emission_bands", "3"), ("horizon", "exact")], expanded),
+        (&[("radius", "r1"), ("scale", "1.7")], neighbours),
+        (&[("radius", "fixed"), ("scale", "0.25"), ("window", "hann")], fixed),
     ];
     for (texts, settings) in cases {
         let texts: Vec<_> = texts.iter().copied().chain([("lights", "64")]).collect();

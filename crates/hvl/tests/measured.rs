@@ -257,7 +257,7 @@ fn a_picture_agrees_with_the_oracle() {
 fn settings_that_do_not_know_measurements_say_so() {
     on_satin(|frame, _| {
         for (texts, word) in
-            [(&[][..], "emission_bands"), (&[("emission_bands", "1"), ("form", "1")], "form")]
+            [(&[][..], "emission_bands"), (&[("emission_bands", "1"), ("form", "zonal")], "form")]
         {
             match VirtualLights(Hvl).prepare(frame, &parameters(texts)).err() {
                 Some(Error::Declined(reason)) => assert!(reason.contains(word), "{reason}"),

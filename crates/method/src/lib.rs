@@ -5,6 +5,7 @@
 //! further frames may reuse is its [`Bake`].
 
 mod bake;
+mod cost;
 mod parameters;
 
 use manylights_gpu::GpuFrame;
@@ -12,7 +13,8 @@ use manylights_metrics::RadianceImage;
 use manylights_scene::{Camera, Scene, Transport, Visibility};
 
 pub use bake::{Bake, Baking, Dependencies};
-pub use parameters::{ParameterInfo, ParameterKind, Parameters};
+pub use cost::{Amounts, Cost, Direction};
+pub use parameters::{ChoiceWord, ParameterInfo, ParameterKind, ParameterValue, Parameters};
 
 /// Where the work of a method is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,15 +111,14 @@ pub trait Method: Sync {
     /// What [`Run::counters`] returns, in its order.
     fn counters(&self) -> &'static [CounterInfo];
 
-    /// The parameter, a [`ParameterKind::Count`], that time and accuracy grow with. Where a budget
-    /// names a time, its value is searched for.
-    fn cost_parameter(&self) -> &'static str;
+    /// The parameter that time and accuracy depend on.
+    fn cost(&self) -> Cost;
 
     /// Of the last segment, where nobody says: what its source computes.
     fn visibility(&self) -> Visibility;
 
     /// Whether the picture after every step estimates the final one, so that one run gives a whole
-    /// curve of error against time.
+    /// curve of error against time. Its cost is then a count, the one that [`Progress`] tells of.
     fn is_progressive(&self) -> bool;
 
     /// How it bakes what further frames reuse; `None` where there is nothing.

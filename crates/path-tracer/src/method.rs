@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use manylights_method::{
-    CounterInfo, Error, Frame, Method, ParameterInfo, ParameterKind, Parameters, PassTime,
-    Processor, Progress, Run,
+    Cost, CounterInfo, Direction, Error, Frame, Method, ParameterInfo, ParameterKind, Parameters,
+    PassTime, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::Visibility;
@@ -40,6 +40,7 @@ impl Method for PathTracer {
     fn parameters(&self) -> &'static [ParameterInfo] {
         &[ParameterInfo {
             name: "samples",
+            formerly: None,
             help: "paths a pixel, rounded up to equal slices of at most 16",
             kind: ParameterKind::Count { default: 64, min: 1, max: 1 << 24 },
         }]
@@ -52,8 +53,8 @@ impl Method for PathTracer {
         ]
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        "samples"
+    fn cost(&self) -> Cost {
+        Cost { parameter: "samples", grows: Direction::Up }
     }
 
     fn visibility(&self) -> Visibility {

@@ -7,6 +7,7 @@ mod gather_shader;
 mod light_gather;
 mod lit_texels;
 mod many_lights;
+mod parameters;
 mod radius;
 mod rsm;
 mod solid_angle;
@@ -19,6 +20,7 @@ pub use lit_texels::{LIT_TEXEL, LitTexel, LitTexels, lit_texels};
 pub use many_lights::{
     Estimator, ManyLightFrame, ManyLightRun, PlacedLights, SceneTables, VirtualLights,
 };
+pub use parameters::{LIGHTS, RADIUS, SCALE};
 pub use radius::{RadiusRule, radii};
 pub use rsm::{Map, MapCell, maps, scene_maps};
 pub use solid_angle::rectangle_solid_angle;

@@ -5,24 +5,25 @@ use std::time::Instant;
 use glam::Vec3;
 use manylights_gpu::{GpuFrame, Shadows};
 use manylights_method::{
-    Bake, Baking, CounterInfo, Dependencies, Error, Frame, Method, ParameterInfo, Parameters,
+    Bake, Baking, Cost, CounterInfo, Dependencies, Error, Frame, Method, ParameterInfo, Parameters,
     PassTime, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Transport, Visibility};
 
 use crate::light_gather::{LightBatches, LightGather};
+use crate::parameters::COST;
 
 /// What a light contributes to a pixel, for methods that gather virtual lights on the adapter. All else
 /// is alike for all of them, and [`VirtualLights`] makes them a [`Method`] of it: one indirect bounce of point-like primary lights; time
-/// and accuracy grow with the parameter [`ParameterInfo::LIGHTS`]; the thesis casts no shadow rays; and
+/// and accuracy grow with the parameter [`LIGHTS`](crate::LIGHTS); the thesis casts no shadow rays; and
 /// half of the lights is half of the flux, so that only the last picture estimates anything.
 pub trait Estimator: Sync + 'static {
     /// As [`Method::id`].
     const ID: &'static str;
     /// As [`Method::title`].
     const TITLE: &'static str;
-    /// As [`Method::parameters`], [`ParameterInfo::LIGHTS`] among them.
+    /// As [`Method::parameters`], [`LIGHTS`](crate::LIGHTS) among them.
     const PARAMETERS: &'static [ParameterInfo];
     /// What it bakes; `()` where there is nothing.
     type Tables: SceneTables;
@@ -91,8 +92,8 @@ impl<M: Estimator> Method for VirtualLights<M> {
         &[CounterInfo { name: "lights", help: "lit cells that were gathered" }]
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        ParameterInfo::LIGHTS.name
+    fn cost(&self) -> Cost {
+        COST
     }
 
     fn visibility(&self) -> Visibility {

@@ -28,7 +28,7 @@ pub enum RadiusRule {
 }
 
 impl RadiusRule {
-    /// Every rule, in the order of the parameter `radius` of all methods.
+    /// Every rule, in the order of the words of [`RADIUS`](crate::RADIUS).
     pub const ALL: [Self; 4] =
         [Self::NearestNeighbours, Self::MapNeighbours, Self::FieldOfView, Self::Fixed];
 }

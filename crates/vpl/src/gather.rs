@@ -28,7 +28,7 @@ pub fn linked_shader(
         ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
         ("clamped", settings.clamp.is_some()),
-        ("attenuated", settings.radius.is_some()),
+        ("attenuated", settings.attenuation_radius.is_some()),
     ];
     EstimatorShader {
         estimator: include_str!("shaders/estimator.wesl"),
@@ -87,7 +87,7 @@ pub(crate) fn gather(
     settings: &Settings,
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
-    let radius = settings.radius.unwrap_or(0.0);
+    let radius = settings.attenuation_radius.unwrap_or(0.0);
     let clamp = settings.clamp.unwrap_or(0.0);
     let uniform = Uniform { clamp, radius2: radius * radius, padding: [0; 2] };
     let mut own = vec![gpu.uniform("settings of vpl", &uniform)?];

@@ -11,7 +11,7 @@
 //! Deviations from the papers: each light carries its cell's exact solid angle, not power/count; the
 //! emitting cosine is that of the geometric normal (see [`manylights_virtual_lights::VirtualLight::flux`]).
 //!
-//! Options, both off by default: `clamp` bounds the geometry term ⟨n_x·ω⟩⟨n_j·−ω⟩/d²; `radius` replaces
+//! Options, both off by default: `clamp` bounds the geometry term ⟨n_x·ω⟩⟨n_j·−ω⟩/d²; `attenuation_radius` replaces
 //! 1/d² by Yuksel's attenuation (thesis 5.18).
 
 mod gather;

@@ -35,7 +35,7 @@ fn contribution(
     let distance = offset.length();
     let cosine = normal.dot(w).max(0.0);
     let emitted = light.geometric_normal.as_dvec3().normalize().dot(-w).max(0.0);
-    let falloff = match settings.radius {
+    let falloff = match settings.attenuation_radius {
         None => 1.0 / (distance * distance),
         Some(radius) => attenuation(distance, radius.into()),
     };

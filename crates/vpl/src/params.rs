@@ -1,17 +1,17 @@
 use manylights_method::{ParameterInfo, ParameterKind, Parameters};
+use manylights_virtual_lights::LIGHTS;
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
-    ParameterInfo {
-        kind: ParameterKind::Count { default: 1024, min: 1, max: 1 << 24 },
-        ..ParameterInfo::LIGHTS
-    },
+    ParameterInfo { kind: ParameterKind::Count { default: 1024, min: 1, max: 1 << 24 }, ..LIGHTS },
     ParameterInfo {
         name: "clamp",
+        formerly: None,
         help: "largest geometry term cos·cos/d², m⁻²; 0 = unbounded",
         kind: ParameterKind::Real { default: 0.0, min: 0.0, max: 1e30 },
     },
     ParameterInfo {
-        name: "radius",
+        name: "attenuation_radius",
+        formerly: Some("radius"),
         help: "radius of Yuksel's attenuation (thesis 5.18), metres; 0 = 1/d²",
         kind: ParameterKind::Real { default: 0.0, min: 0.0, max: 1e15 },
     },
@@ -25,7 +25,7 @@ pub struct Settings {
     /// Bound of the geometry term, m⁻².
     pub clamp: Option<f32>,
     /// Radius of Yuksel's attenuation, metres.
-    pub radius: Option<f32>,
+    pub attenuation_radius: Option<f32>,
 }
 
 /// What `list methods` shows.
@@ -41,7 +41,7 @@ impl Settings {
         Self {
             lights: parameters.count("lights"),
             clamp: positive("clamp"),
-            radius: positive("radius"),
+            attenuation_radius: positive("attenuation_radius"),
         }
     }
 }

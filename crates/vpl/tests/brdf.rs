@@ -15,7 +15,7 @@ mod tensor;
 static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
 
-const SETTINGS: Settings = Settings { lights: 1, clamp: None, radius: None };
+const SETTINGS: Settings = Settings { lights: 1, clamp: None, attenuation_radius: None };
 
 fn light(position: Vec3, normal: Vec3, incoming: Vec3, brdf: Brdf) -> VirtualLight {
     let flux = Vec3::ONE;

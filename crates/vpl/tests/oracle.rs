@@ -5,7 +5,7 @@ mod common;
 use common::{Picture, render};
 use manylights_vpl::Settings;
 
-const PLAIN: Settings = Settings { lights: 256, clamp: None, radius: None };
+const PLAIN: Settings = Settings { lights: 256, clamp: None, attenuation_radius: None };
 
 /// Largest difference of any pixel to the oracle, relative to the picture's largest component.
 ///
@@ -38,8 +38,8 @@ fn glossy_scenes() {
 #[test]
 fn clamp_and_attenuation() {
     let clamped = Settings { clamp: Some(0.7), ..PLAIN };
-    let attenuated = Settings { radius: Some(0.3), ..PLAIN };
-    let both = Settings { clamp: Some(0.7), radius: Some(0.3), ..PLAIN };
+    let attenuated = Settings { attenuation_radius: Some(0.3), ..PLAIN };
+    let both = Settings { clamp: Some(0.7), attenuation_radius: Some(0.3), ..PLAIN };
     for settings in [clamped, attenuated, both] {
         assert!(worst("cornell-glossy", &settings) < 1e-5, "{settings:?}");
     }
@@ -53,7 +53,7 @@ fn the_clamp_bounds_and_the_attenuation_dims() {
     };
     let plain = sum(&PLAIN);
     assert!(sum(&Settings { clamp: Some(0.3), ..PLAIN }) < 0.999 * plain);
-    assert!(sum(&Settings { radius: Some(0.5), ..PLAIN }) < 0.999 * plain);
+    assert!(sum(&Settings { attenuation_radius: Some(0.5), ..PLAIN }) < 0.999 * plain);
 }
 
 #[test]

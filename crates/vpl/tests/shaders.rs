@@ -16,7 +16,13 @@ fn every_setting() -> Vec<Settings> {
     let options = [None, Some(1.0)];
     options
         .iter()
-        .flat_map(|&clamp| options.iter().map(move |&radius| Settings { lights: 1, clamp, radius }))
+        .flat_map(|&clamp| {
+            options.iter().map(move |&attenuation_radius| Settings {
+                lights: 1,
+                clamp,
+                attenuation_radius,
+            })
+        })
         .collect()
 }
 

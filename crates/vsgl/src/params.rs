@@ -1,20 +1,25 @@
-use manylights_method::{ParameterInfo, ParameterKind, Parameters};
+use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
+use manylights_virtual_lights::LIGHTS;
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
-    ParameterInfo {
-        help: "groups of texels of the reflective shadow maps, rounded up to whole square maps",
-        ..ParameterInfo::LIGHTS
-    },
+    LIGHTS,
     ParameterInfo {
         name: "texels",
-        help: "texels a side of a group; the thesis takes 14",
+        formerly: None,
+        help: "texels a side of a light's cell; the thesis takes 14",
         kind: ParameterKind::Count { default: 14, min: 1, max: 1 << 10 },
     },
     ParameterInfo {
         name: "lobe",
-        help: "specular of the shaded point: 0 = anisotropic Gaussian (the thesis), 1 = filtered \
-               distribution of normals",
-        kind: ParameterKind::Count { default: 1, min: 0, max: 1 },
+        formerly: None,
+        help: "what stands for the specular lobe of the shaded point",
+        kind: ParameterKind::Choice {
+            default: "filtered",
+            words: &[
+                ChoiceWord { word: "anisotropic", help: "an anisotropic Gaussian (the thesis)" },
+                ChoiceWord { word: "filtered", help: "a filtered distribution of normals" },
+            ],
+        },
     },
 ];
 
@@ -30,9 +35,9 @@ pub enum SpecularLobe {
 /// The parameters by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Groups asked for.
+    /// Cells asked for.
     pub lights: u64,
-    /// Texels a side of a group.
+    /// Texels a side of a cell.
     pub texels: u32,
     /// The shaded point's specular lobe.
     pub lobe: SpecularLobe,
@@ -50,10 +55,10 @@ impl Settings {
         Self {
             lights: parameters.count("lights"),
             texels: parameters.count("texels") as u32,
-            lobe: match parameters.count("lobe") {
-                0 => SpecularLobe::Anisotropic,
-                _ => SpecularLobe::Filtered,
-            },
+            lobe: parameters.choice(
+                "lobe",
+                &[("anisotropic", SpecularLobe::Anisotropic), ("filtered", SpecularLobe::Filtered)],
+            ),
         }
     }
 }

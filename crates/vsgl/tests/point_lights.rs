@@ -15,7 +15,7 @@ use manylights_vsgl::oracle::{DIFFUSE_SHARPNESS, filter};
 use manylights_vsgl::{GaussianLight, filter_group, gather};
 
 const POINTS: manylights_vpl::Settings =
-    manylights_vpl::Settings { lights: 1, clamp: None, radius: None };
+    manylights_vpl::Settings { lights: 1, clamp: None, attenuation_radius: None };
 
 fn virtual_light((surface, lit): &(SurfaceRecord, LitTexel)) -> VirtualLight {
     VirtualLight {

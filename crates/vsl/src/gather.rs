@@ -82,7 +82,7 @@ pub(crate) fn gather(
     shadows: Option<Shadows>,
 ) -> Result<LightGather, Error> {
     // For each pair of pixel and light, of each strategy.
-    let mut own = vec![gpu.uniform("settings of vsl", &[settings.samples, 0, 0, 0])?];
+    let mut own = vec![gpu.uniform("settings of vsl", &[settings.directions, 0, 0, 0])?];
     own.extend(kinds.tables(gpu)?);
     let traced = shadows.is_some();
     let shaders = [

@@ -25,7 +25,7 @@ pub fn radiance(
     }
     let receiver = Receiver::new(surface, camera);
     let contribution = |(index, sphere)| {
-        let samples = samples(pixel, light_key(index, seed), settings.samples);
+        let samples = samples(pixel, light_key(index, seed), settings.directions);
         receiver.estimate(sphere, settings, samples)
     };
     lights.iter().enumerate().map(contribution).sum()
@@ -132,7 +132,7 @@ impl Receiver {
             sum
         };
         let sum: DVec3 = samples.map(sample).sum();
-        sum * (cone.falloff / f64::from(settings.samples))
+        sum * (cone.falloff / f64::from(settings.directions))
     }
 
     /// A direction that follows the lobes.

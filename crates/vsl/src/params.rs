@@ -1,20 +1,29 @@
-use manylights_method::{ParameterInfo, ParameterKind, Parameters};
-use manylights_virtual_lights::RadiusRule;
+use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
+use manylights_virtual_lights::{LIGHTS, RADIUS, RadiusRule, SCALE};
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
-    ParameterInfo::LIGHTS,
+    LIGHTS,
     ParameterInfo {
-        name: "samples",
+        name: "directions",
+        formerly: Some("samples"),
         help: "directions for each light and pixel, of each sampling strategy",
         kind: ParameterKind::Count { default: 9, min: 1, max: 1 << 16 },
     },
     ParameterInfo {
         name: "sampling",
-        help: "0 = BRDF of the shaded point (the thesis), 1 = cone, 2 = both, balanced",
-        kind: ParameterKind::Count { default: 2, min: 0, max: 2 },
+        formerly: None,
+        help: "how directions to a light are drawn",
+        kind: ParameterKind::Choice {
+            default: "both",
+            words: &[
+                ChoiceWord { word: "brdf", help: "by the shaded point's reflectance (the thesis)" },
+                ChoiceWord { word: "cone", help: "uniformly over the light's cone" },
+                ChoiceWord { word: "both", help: "both, balanced" },
+            ],
+        },
     },
-    ParameterInfo::RADIUS,
-    ParameterInfo::SCALE,
+    RADIUS,
+    SCALE,
 ];
 
 /// How directions in the cone of a light are drawn.
@@ -34,7 +43,7 @@ pub struct Settings {
     /// Cells asked for.
     pub lights: u64,
     /// Directions for each pair of light and pixel, of each strategy.
-    pub samples: u32,
+    pub directions: u32,
     /// Strategies in use.
     pub sampling: Sampling,
     /// Where radii come from.
@@ -54,13 +63,12 @@ impl Settings {
     pub(crate) fn new(parameters: &Parameters) -> Self {
         Self {
             lights: parameters.count("lights"),
-            samples: parameters.count("samples") as u32,
-            sampling: match parameters.count("sampling") {
-                0 => Sampling::Brdf,
-                1 => Sampling::Cone,
-                _ => Sampling::Both,
-            },
-            radius: RadiusRule::ALL[parameters.count("radius") as usize],
+            directions: parameters.count("directions") as u32,
+            sampling: parameters.choice(
+                "sampling",
+                &[("brdf", Sampling::Brdf), ("cone", Sampling::Cone), ("both", Sampling::Both)],
+            ),
+            radius: RadiusRule::chosen(parameters),
             scale: parameters.real("scale") as f32,
         }
     }
@@ -70,7 +78,7 @@ impl Settings {
     /// Of all strategies together.
     pub(crate) fn directions_a_pair(&self) -> u64 {
         let strategies = if self.sampling == Sampling::Both { 2 } else { 1 };
-        strategies * u64::from(self.samples)
+        strategies * u64::from(self.directions)
     }
 }
 

@@ -21,7 +21,7 @@ fn radiance(surface: SurfaceRecord, sphere: VirtualSphere, settings: &Settings) 
 
 /// Values along a path of the light, by cone samples.
 fn along(places: impl Iterator<Item = (Vec3, Vec3)>, brdf: Brdf, radius: f32) -> Vec<f32> {
-    let settings = Settings { samples: 4096, sampling: Sampling::Cone, ..SETTINGS };
+    let settings = Settings { directions: 4096, sampling: Sampling::Cone, ..SETTINGS };
     let receiver = SurfaceRecord::new(Vec3::ZERO, Vec3::Y, brdf);
     places
         .map(|(place, normal)| radiance(receiver, light(place, normal, brdf, radius), &settings))
@@ -72,7 +72,7 @@ fn the_unit_of_length_does_not_matter() {
         (SurfaceRecord::new(Vec3::ZERO, Vec3::Y, glossy(0.6)), sphere)
     };
     for sampling in SAMPLINGS {
-        let settings = Settings { samples: 25, sampling, ..SETTINGS };
+        let settings = Settings { directions: 25, sampling, ..SETTINGS };
         let value = |size: f32| {
             let (surface, sphere) = pair(size);
             let camera = size * CAMERA;
@@ -124,8 +124,8 @@ fn nothing_is_ever_non_finite() {
         }
     }
     for sampling in SAMPLINGS {
-        for samples in [1, 25] {
-            let settings = Settings { samples, sampling, ..SETTINGS };
+        for directions in [1, 25] {
+            let settings = Settings { directions, sampling, ..SETTINGS };
             let pixels = gather(&GPU, &surfaces, CAMERA, &lights, &settings, 0).expect("a gather");
             for (surface, pixel) in surfaces.iter().zip(pixels) {
                 // A value that is not finite would stay so in the sum over the lights.

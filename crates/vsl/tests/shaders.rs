@@ -16,7 +16,7 @@ const GLOSSY: Reflectances =
     Reflectances { specular: true, exact_fresnel: false, measured: Vec::new() };
 
 fn settings(sampling: Sampling) -> Settings {
-    Settings { lights: 1, samples: 9, sampling, radius: RadiusRule::FieldOfView, scale: 1.0 }
+    Settings { lights: 1, directions: 9, sampling, radius: RadiusRule::FieldOfView, scale: 1.0 }
 }
 
 #[test]

@@ -58,7 +58,7 @@ fn many_samples_approach_the_quadrature() {
     for (name, surface, sphere) in pairs() {
         let truth = quadrature(&surface, &sphere, 512).x;
         for sampling in SAMPLINGS {
-            let settings = Settings { samples: 16_384, sampling, ..SETTINGS };
+            let settings = Settings { directions: 16_384, sampling, ..SETTINGS };
             let pixels =
                 gather(&GPU, &[surface; 16], CAMERA, &[sphere], &settings, 0).expect("a gather");
             let mean = pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / 16.0;
@@ -82,7 +82,7 @@ fn many_samples_approach_the_quadrature() {
 #[test]
 fn lambert_has_a_closed_form() {
     let brdf = Brdf::lambert(Vec3::splat(0.5));
-    let settings = Settings { samples: 4096, sampling: Sampling::Cone, ..SETTINGS };
+    let settings = Settings { directions: 4096, sampling: Sampling::Cone, ..SETTINGS };
     for radius in [1e-3, 0.2, 0.6] {
         let place = Vec3::new(-0.4, 1.2, 0.3);
         let sphere = light(place, Vec3::new(0.1, -1.0, 0.2).normalize(), brdf, radius);
@@ -105,7 +105,7 @@ fn lambert_has_a_closed_form() {
 #[test]
 fn normal_incidence_on_a_light() {
     let receiver = SurfaceRecord::new(Vec3::ZERO, Vec3::Y, Brdf::lambert(Vec3::splat(0.5)));
-    let settings = Settings { samples: 1, scale: 0.0, ..SETTINGS };
+    let settings = Settings { directions: 1, scale: 0.0, ..SETTINGS };
     for index in 0..64 {
         let (sin, cos) = (index as f32).sin_cos();
         let normal = Vec3::new(0.3 * sin, -1.0, 0.3 * cos).normalize();
@@ -170,7 +170,7 @@ fn the_balance_heuristic_saves_either_strategy() {
 /// Radius → 0: the picture of point lights, and at 0 exactly that, whatever is sampled.
 #[test]
 fn small_spheres_are_point_lights() {
-    let plain = manylights_vpl::Settings { lights: 256, clamp: None, radius: None };
+    let plain = manylights_vpl::Settings { lights: 256, clamp: None, attenuation_radius: None };
     for sampling in SAMPLINGS {
         let settings = Settings { sampling, scale: 0.0, ..SETTINGS };
         // One flat scene, one with interpolated normals.
@@ -196,7 +196,7 @@ fn small_spheres_are_point_lights() {
 /// The error of the limit falls with r² (formula of |Ω|/(πr²), symmetric cones).
 #[test]
 fn the_limit_is_of_second_order() {
-    let plain = manylights_vpl::Settings { lights: 1, clamp: None, radius: None };
+    let plain = manylights_vpl::Settings { lights: 1, clamp: None, attenuation_radius: None };
     let surface = SurfaceRecord::new(Vec3::ZERO, Vec3::Y, glossy(0.6));
     let error = |radius| {
         let sphere = light(Vec3::new(-0.9, 1.2, 0.3), Vec3::NEG_Y, glossy(0.8), radius);
@@ -215,7 +215,7 @@ fn the_oracle_integrates() {
     for (name, surface, sphere) in pairs() {
         let truth = quadrature(&surface, &sphere, 512).x;
         for sampling in SAMPLINGS {
-            let settings = Settings { samples: 65_536, sampling, ..SETTINGS };
+            let settings = Settings { directions: 65_536, sampling, ..SETTINGS };
             let eye = CAMERA.as_dvec3();
             let value = oracle::radiance(0, &surface, eye, &[sphere], &settings, 0).x;
             // One lattice of 65 536; see `many_samples_approach_the_quadrature`.

@@ -98,8 +98,8 @@ fn outcome(columns: impl IntoIterator<Item = [DVec3; 2]>, white: Option<f64>) ->
 
 fn measure_vpl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
     let Pair { surface, light, extent } = pair;
-    let columns = [None, Some(*extent)].map(|radius| {
-        let settings = vpl::Settings { radius, ..vpl::Settings::default() };
+    let columns = [None, Some(*extent)].map(|attenuation_radius| {
+        let settings = vpl::Settings { attenuation_radius, ..vpl::Settings::default() };
         let pixels = vpl::gather(gpu, &[*surface], camera, &[*light], &settings);
         [pixel(pixels), vpl::oracle::radiance(surface, camera.as_dvec3(), &[*light], &settings)]
     });
@@ -109,7 +109,8 @@ fn measure_vpl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
 fn measure_vsl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
     let Pair { surface, light, extent } = pair;
     let spheres = [VirtualSphere { light: *light, radius: *extent }];
-    let settings = |sampling| vsl::Settings { samples: 25, sampling, ..vsl::Settings::default() };
+    let settings =
+        |sampling| vsl::Settings { directions: 25, sampling, ..vsl::Settings::default() };
     let value =
         |sampling| pixel(vsl::gather(gpu, &[*surface], camera, &spheres, &settings(sampling), 0));
     let cone = settings(vsl::Sampling::Cone);

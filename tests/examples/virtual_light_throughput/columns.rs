@@ -11,11 +11,11 @@ use manylights_vsl::{Sampling, Vsl};
 
 const CELLS: [u32; 3] = [100, 400, 1600];
 const BANDS: [usize; 5] = [3, 5, 10, 15, 20];
-const SAMPLES: u32 = 25;
+const DIRECTIONS: u32 = 25;
 
 /// Names of the columns, each once.
 pub(crate) const NAMES: [&str; 6] =
-    ["vpl", "vsl sampling=0", "vsl sampling=1", "vsgl", "hvl", "hvl form=1"];
+    ["vpl", "vsl sampling=brdf", "vsl sampling=cone", "vsgl", "hvl", "hvl form=zonal"];
 
 /// A method with its parameters.
 pub(crate) struct Column {
@@ -35,10 +35,12 @@ pub(crate) fn columns(glossy: bool) -> Vec<Column> {
         let parameters = more.iter().cloned().chain([("lights", cells.to_string())]).collect();
         Column { name, method, parameters, cells, bands: None, operations }
     };
-    let vsl =
-        |sampling: &str| [("samples", SAMPLES.to_string()), ("sampling", sampling.to_owned())];
+    let vsl = |sampling: &str| {
+        [("directions", DIRECTIONS.to_string()), ("sampling", sampling.to_owned())]
+    };
     let hvl = |name, form, cells, bands: usize| {
-        let more = [("bands", bands.to_string()), ("form", (form as u32).to_string())];
+        let word = if form == Form::Full { "full" } else { "zonal" };
+        let more = [("bands", bands.to_string()), ("form", word.to_owned())];
         let operations = of_hvl(glossy, form, bands).expect("a shader");
         Column {
             bands: Some(bands),
@@ -51,17 +53,17 @@ pub(crate) fn columns(glossy: bool) -> Vec<Column> {
     let mut columns = Vec::new();
     columns.extend(CELLS.map(|cells| column("vpl", &VirtualLights(Vpl), cells, &[], Some(points))));
     columns.extend(
-        CELLS.map(|cells| column("vsl sampling=0", &VirtualLights(Vsl), cells, &vsl("0"), None)),
-    );
-    columns.extend(
         CELLS.map(|cells| {
-            column("vsl sampling=1", &VirtualLights(Vsl), cells, &vsl("1"), Some(cones))
+            column("vsl sampling=brdf", &VirtualLights(Vsl), cells, &vsl("brdf"), None)
         }),
     );
+    columns.extend(CELLS.map(|cells| {
+        column("vsl sampling=cone", &VirtualLights(Vsl), cells, &vsl("cone"), Some(cones))
+    }));
     columns.extend(
         CELLS.map(|cells| column("vsgl", &VirtualLights(Vsgl), cells, &[], Some(gaussians))),
     );
-    for (name, form) in [("hvl", Form::Full), ("hvl form=1", Form::Zonal)] {
+    for (name, form) in [("hvl", Form::Full), ("hvl form=zonal", Form::Zonal)] {
         columns.extend(BANDS.map(|bands| hvl(name, form, 400, bands)));
         columns.extend([100, 1600].map(|cells| hvl(name, form, cells, 5)));
     }
@@ -77,15 +79,15 @@ fn of_vpl(kinds: &Reflectances) -> Result<Operations, Error> {
     operations(&shader.wgsl, CONTRIBUTION, 1)
 }
 
-/// Every sample of a cone is evaluated.
+/// Every direction of a cone is evaluated.
 fn of_vsl(kinds: &Reflectances) -> Result<Operations, Error> {
     let settings = manylights_vsl::Settings {
-        samples: SAMPLES,
+        directions: DIRECTIONS,
         sampling: Sampling::Cone,
         ..manylights_vsl::Settings::default()
     };
     let shader = manylights_vsl::linked_shader(kinds, kinds.specular, false, &settings)?;
-    operations(&shader.wgsl, CONTRIBUTION, SAMPLES.into())
+    operations(&shader.wgsl, CONTRIBUTION, DIRECTIONS.into())
 }
 
 /// A light on a glossy surface is two Gaussians.

@@ -129,8 +129,8 @@ fn main() {
          `cargo run --release -p manylights-tests --example virtual_light_throughput` on {name} ({driver} \
          {driver_info}).\n\n\
          {}×{} pixels, visibility ignored; median of {ROUNDS} interleaved rounds of the gather pass. \
-         `vsl` takes 25 samples, of the shaded point's BRDF as in the thesis (sampling=0) or of the cone \
-         (sampling=1). Operations on floats are counted in the shader's text \
+         `vsl` takes 25 directions, of the shaded point's BRDF as in the thesis (sampling=brdf) or of the cone \
+         (sampling=cone). Operations on floats are counted in the shader's text \
          (`manylights_gpu::operations`) for a pair that sees each other, both sides of branches; whole \
          numbers and memory are not counted, and pairs that face away leave early, so that a share may \
          be more than what the arithmetic units did. Special ones (roots, divisions, exponentials) count \

@@ -65,7 +65,7 @@ pub(crate) struct Medians {
     /// Of each pass, by the processor's own clock.
     pub(crate) pass_seconds: BTreeMap<String, f64>,
     /// Value of the method's cost parameter.
-    pub(crate) amount: u64,
+    pub(crate) amount: f64,
     /// What the method counted for the first seed.
     pub(crate) counters: BTreeMap<String, u64>,
     /// Key of the cell whose picture stands for the row: the first seed's.
@@ -322,7 +322,7 @@ mod tests {
             bake_counters: BTreeMap::new(),
             prepare_seconds: 0.0,
             pass_seconds: BTreeMap::new(),
-            amount: 1,
+            amount: 1.0,
             counters,
             key: String::new(),
             errors,

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use manylights_method::{CounterInfo, Method, ParameterInfo, ParameterKind, Processor};
+use manylights_method::{ChoiceWord, CounterInfo, Method, ParameterInfo, ParameterKind, Processor};
 use manylights_scene::SceneKind;
 use serde_json::{Value, json};
 
@@ -63,7 +63,7 @@ fn method_entry(method: &dyn Method) -> Entry {
     };
     let mut text = format!("{} ({processor}): {}", method.id(), method.title());
     for info in method.parameters() {
-        text.push_str(&format!("\n  --set {}=N  {} ({})", info.name, info.help, range(info)));
+        text.push_str(&parameter_text(info));
     }
     let json = json!({
         "id": method.id(),
@@ -78,30 +78,40 @@ fn method_entry(method: &dyn Method) -> Entry {
     Entry { text, json }
 }
 
-fn range(info: &ParameterInfo) -> String {
+fn parameter_text(info: &ParameterInfo) -> String {
+    let ParameterInfo { name, help, .. } = info;
     match info.kind {
-        ParameterKind::Count { default, min, max } => {
-            format!("a whole number from {min} to {max}, default {default}")
-        }
+        ParameterKind::Count { default, min, max } => format!(
+            "\n  --set {name}=N  {help} (a whole number from {min} to {max}, default {default})"
+        ),
         ParameterKind::Real { default, min, max } => {
-            format!("a number from {min} to {max}, default {default}")
+            format!("\n  --set {name}=N  {help} (a number from {min} to {max}, default {default})")
+        }
+        ParameterKind::Choice { default, words } => {
+            let line = |known: &ChoiceWord| format!("\n      {}: {}", known.word, known.help);
+            let lines: String = words.iter().map(line).collect();
+            format!("\n  --set {name}=WORD  {help} (default {default}){lines}")
         }
     }
 }
 
 fn parameter_json(info: &ParameterInfo) -> Value {
-    let (kind, default, min, max) = match info.kind {
-        ParameterKind::Count { default, min, max } => {
-            ("count", json!(default), json!(min), json!(max))
+    let ParameterInfo { name, help, .. } = info;
+    match info.kind {
+        ParameterKind::Count { default, min, max } => json!({
+            "name": name, "help": help, "kind": "count", "default": default, "min": min, "max": max,
+        }),
+        ParameterKind::Real { default, min, max } => json!({
+            "name": name, "help": help, "kind": "real", "default": default, "min": min, "max": max,
+        }),
+        ParameterKind::Choice { default, words } => {
+            let word = |known: &ChoiceWord| json!({ "word": known.word, "help": known.help });
+            let words: Vec<_> = words.iter().map(word).collect();
+            json!({
+                "name": name, "help": help, "kind": "choice", "default": default, "words": words,
+            })
         }
-        ParameterKind::Real { default, min, max } => {
-            ("real", json!(default), json!(min), json!(max))
-        }
-    };
-    json!({
-        "name": info.name, "help": info.help, "kind": kind,
-        "default": default, "min": min, "max": max,
-    })
+    }
 }
 
 fn counter_json(info: &CounterInfo) -> Value {

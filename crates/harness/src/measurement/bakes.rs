@@ -27,7 +27,7 @@ pub(crate) struct Origin {
     /// Of the frame.
     pub(crate) seed: u64,
     /// Value of the method's cost parameter.
-    pub(crate) amount: u64,
+    pub(crate) amount: f64,
 }
 
 /// A scene as bakes depend on it.

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use manylights_method::{
-    Bake, Baking, CounterInfo, Dependencies, Error, Frame, Method, ParameterInfo, ParameterKind,
-    Parameters, PassTime, Processor, Progress, Run,
+    Bake, Baking, Cost, CounterInfo, Dependencies, Direction, Error, Frame, Method, ParameterInfo,
+    ParameterKind, Parameters, PassTime, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Visibility};
@@ -68,15 +68,15 @@ impl Method for &'static Baker {
 
     fn parameters(&self) -> &'static [ParameterInfo] {
         const KIND: ParameterKind = ParameterKind::Count { default: 4, min: 1, max: 64 };
-        &[ParameterInfo { name: "work", help: "none at all", kind: KIND }]
+        &[ParameterInfo { name: "work", formerly: None, help: "none at all", kind: KIND }]
     }
 
     fn counters(&self) -> &'static [CounterInfo] {
         &[]
     }
 
-    fn cost_parameter(&self) -> &'static str {
-        "work"
+    fn cost(&self) -> Cost {
+        Cost { parameter: "work", grows: Direction::Up }
     }
 
     fn visibility(&self) -> Visibility {
@@ -279,7 +279,7 @@ fn an_equal_build_time_is_searched_with_bakes_that_are_made_anew() {
     assert_eq!(log[..2], [least, most.clone()]);
     assert!(log.len() > 2 && log.last() == Some(&most), "{log:?}");
     let found: Vec<_> = done(&scenes[0]).map(|cell| (cell.amount, cell.bake_shared)).collect();
-    assert_eq!(found, [(64, false), (64, true), (64, true), (64, true)]);
+    assert_eq!(found, [(64.0, false), (64.0, true), (64.0, true), (64.0, true)]);
     // Where a frame is what costs, the bake is not made again for each try.
     let budget = (Budget::Seconds(1e9), Bounded::Time);
     let (_, log) = cells(Dependencies { scene: true, ..NOTHING }, budget, &[0]);
@@ -342,7 +342,8 @@ type Asked<'s> = (&'s Scene, usize, u64, u64);
 fn baked(baker: &'static Baker, wanted: &[Asked<'_>]) -> Vec<String> {
     let mut bakes = Bakes::default();
     for &(scene, camera, seed, amount) in wanted {
-        let parameters = Parameters::defaults((&baker).parameters()).with_count("work", amount);
+        let amount = amount as f64;
+        let parameters = Parameters::defaults((&baker).parameters()).with_number("work", amount);
         let origin = Origin { scene: SceneHashes::new(scene), seed, amount };
         let (variant, baking, parameters) = (0, &baker as &dyn Baking, &parameters);
         let wanted = Wanted { variant, baking, parameters, origin, camera };

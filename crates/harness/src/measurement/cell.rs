@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use manylights_metrics::{Errors, RadianceImage};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::error::one_line;
 use crate::measurement::inputs::Inputs;
@@ -58,7 +58,8 @@ impl Outcome {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Done {
     /// Value of the method's cost parameter: as asked for, or as found for a time budget.
-    pub(crate) amount: u64,
+    #[serde(serialize_with = "number")]
+    pub(crate) amount: f64,
     /// Visibility of the last segment that the method computes, where it is a choice.
     pub(crate) visibility: Option<String>,
     /// Wall clock of what was baked, or grown for this camera; 0 where nothing is.
@@ -93,7 +94,8 @@ pub(crate) struct Done {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Checkpoint {
     /// Work done, in units of the cost parameter.
-    pub(crate) amount: u64,
+    #[serde(serialize_with = "number")]
+    pub(crate) amount: f64,
     /// Wall clock of the work so far.
     pub(crate) step_seconds: f64,
     /// RMSE of sRGB values by name of the reference.
@@ -113,6 +115,14 @@ pub(crate) struct Comparison {
     pub(crate) display_floor: f64,
 }
 
+/// Counts without a decimal point.
+fn number<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    match *value as u64 {
+        whole if whole as f64 == *value => serializer.serialize_u64(whole),
+        _ => serializer.serialize_f64(*value),
+    }
+}
+
 /// Hash of the bits of a picture.
 pub(crate) fn image_sha256(image: &RadianceImage) -> String {
     let bytes: Vec<u8> =
@@ -125,13 +135,17 @@ mod tests {
     use super::*;
     use crate::measurement::inputs::ReferenceInputs;
     use crate::question::plan::{Bounded, Budget};
+    use crate::question::recorded_value::RecordedValue;
 
     fn inputs() -> Inputs {
         Inputs {
             scene: "s".into(),
             scene_content: "c".into(),
             method: "m".into(),
-            parameters: BTreeMap::from([("n".into(), 4.0)]),
+            parameters: BTreeMap::from([
+                ("n".into(), RecordedValue::Number(4.0)),
+                ("w".into(), RecordedValue::Word("hann".into())),
+            ]),
             budget: Budget::Seconds(0.1),
             seed: 1,
             repetition: 0,
@@ -145,7 +159,7 @@ mod tests {
                     "per-pixel".into(),
                     ReferenceInputs::Method {
                         method: "m".into(),
-                        parameters: BTreeMap::from([("n".into(), 0.5)]),
+                        parameters: BTreeMap::from([("n".into(), RecordedValue::Number(0.5))]),
                         asked_visibility: None,
                     },
                 ),
@@ -170,12 +184,12 @@ mod tests {
         let comparison =
             Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
         let checkpoint = Checkpoint {
-            amount: 16,
+            amount: 16.0,
             step_seconds: 0.01,
             display_rmse: BTreeMap::from([("traced".into(), 0.1)]),
         };
         let done = Done {
-            amount: 32,
+            amount: 0.1 + 0.2,
             visibility: Some("traced".into()),
             bake_seconds: 0.5,
             bake_pass_seconds: BTreeMap::from([("grid".into(), 0.375)]),
@@ -195,6 +209,7 @@ mod tests {
         let cell = Cell { key, inputs: inputs(), outcome, provenance };
         let line = serde_json::to_string(&cell).expect("plain data");
         assert!(!line.contains('\n'));
+        assert!(line.contains(r#""amount":16,"#), "{line}");
         assert_eq!(serde_json::from_str::<Cell>(&line).expect("own line"), cell);
     }
 

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::measurement::provenance::{Provenance, sha256};
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Bounded, Budget, Variant};
+use crate::question::recorded_value::RecordedValue;
 use crate::question::references::{Reference, Source};
 
 /// What decides the picture and its errors, and where its time was taken.
@@ -23,7 +24,7 @@ pub(crate) struct Inputs {
     /// Method.
     pub(crate) method: String,
     /// Its parameters, without the one that a time budget sets.
-    pub(crate) parameters: BTreeMap<String, f64>,
+    pub(crate) parameters: BTreeMap<String, RecordedValue>,
     /// What it may cost.
     pub(crate) budget: Budget,
     /// Which time a budget bounds.
@@ -57,7 +58,7 @@ pub(crate) enum ReferenceInputs {
         /// Its id.
         method: String,
         /// Its parameters.
-        parameters: BTreeMap<String, f64>,
+        parameters: BTreeMap<String, RecordedValue>,
         /// Visibility of the last segment, where it is not the method's own.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         asked_visibility: Option<String>,

@@ -39,7 +39,7 @@ pub(crate) struct SceneRun<'s, 'a> {
     /// What the pictures are compared with.
     pub(crate) references: &'s [SceneReference],
     /// Of each variant, the value of the cost parameter that its time budget was found to allow.
-    pub(crate) amounts: Vec<Option<u64>>,
+    pub(crate) amounts: Vec<Option<f64>>,
     /// The variants whose time budgets no amount could be found for, and why.
     pub(crate) refused: BTreeMap<usize, Outcome>,
     /// Whether any cell was not in the journal.
@@ -216,7 +216,11 @@ impl SceneRun<'_, '_> {
                     .map_err(|error| Error::Failed(error.to_string()))?;
                 let rmse = |(name, errors): (String, Comparison)| (name, errors.display.rmse);
                 let display_rmse = errors.into_iter().map(rmse).collect();
-                checkpoints.push(Checkpoint { amount: progress.done, step_seconds, display_rmse });
+                checkpoints.push(Checkpoint {
+                    amount: progress.done as f64,
+                    step_seconds,
+                    display_rmse,
+                });
             }
             Ok(())
         };
@@ -269,7 +273,7 @@ impl SceneRun<'_, '_> {
     ) -> Result<Done, manylights_metrics::Error> {
         let Variant { method, parameters, visibility, .. } =
             &self.session.experiment.variants[turn.variant];
-        let asked = || parameters.count(method.cost_parameter());
+        let asked = || parameters.real(method.cost().parameter);
         let errors = compare(self.references, &measured.image, turn.seed)?;
         Ok(Done {
             amount: self.amounts[turn.variant].unwrap_or_else(asked),

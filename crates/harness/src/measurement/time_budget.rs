@@ -22,15 +22,18 @@ const RUNS: usize = 3;
 
 impl Session<'_> {
     /// Of each variant, the amount of work that a time budget repeats, where there is one to repeat.
-    pub(crate) fn replayed_amounts(&self, scene: &Scene, camera: Option<&str>) -> Vec<Option<u64>> {
+    pub(crate) fn replayed_amounts(&self, scene: &Scene, camera: Option<&str>) -> Vec<Option<f64>> {
         let amount = |variant: &Variant| {
             let asked = Inputs::new(self.experiment, scene, camera, "", variant);
             let alike = |cell: &&Cell| {
                 cell.inputs.view() == asked.view() && cell.inputs.label() == asked.label()
             };
             let mut cells = self.replayed.iter().filter(alike);
+            let allowed = |&amount: &f64| variant.amounts().contains(amount);
             cells.find_map(|cell| match &cell.outcome {
-                Outcome::Done(done) if variant.budget != Budget::Count => Some(done.amount),
+                Outcome::Done(done) if variant.budget != Budget::Count => {
+                    Some(done.amount).filter(allowed)
+                }
                 _ => None,
             })
         };
@@ -55,9 +58,10 @@ impl SceneRun<'_, '_> {
             cell.provenance == *provenance
                 && Inputs { seed, repetition, ..inputs.clone() } == cell.inputs
         };
+        let allowed = self.session.experiment.variants[variant].amounts();
         self.amounts[variant] =
             self.session.journal.cells().rev().filter(alike).find_map(|cell| match &cell.outcome {
-                Outcome::Done(done) => Some(done.amount),
+                Outcome::Done(done) => Some(done.amount).filter(|&amount| allowed.contains(amount)),
                 _ => None,
             });
     }
@@ -82,7 +86,7 @@ impl SceneRun<'_, '_> {
         }
     }
 
-    fn search(&mut self, turn: Turn) -> Result<u64, Error> {
+    fn search(&mut self, turn: Turn) -> Result<f64, Error> {
         let experiment = self.session.experiment;
         let variant = &experiment.variants[turn.variant];
         let bounded = variant.bounded;
@@ -101,16 +105,16 @@ impl SceneRun<'_, '_> {
         if target <= 0.0 {
             return Err(Error::Declined("the baseline, which sets the time, bakes nothing".into()));
         }
-        let start = variant.parameters.count(variant.method.cost_parameter());
+        let start = variant.parameters.real(variant.method.cost().parameter);
         let measured = |amount| self.time(turn, amount, bounded, target);
-        equal_time::search(target, variant.cost_range(), start, measured)
+        equal_time::search(target, variant.amounts(), start, measured)
     }
 
     /// One run where the time is far from `target`, the median of some where it is near.
     fn time(
         &mut self,
         turn: Turn,
-        amount: u64,
+        amount: f64,
         bounded: Bounded,
         target: f64,
     ) -> Result<f64, Error> {
@@ -121,14 +125,14 @@ impl SceneRun<'_, '_> {
         self.seconds(turn, Some(amount), bounded)
     }
 
-    fn seconds(&mut self, turn: Turn, amount: Option<u64>, bounded: Bounded) -> Result<f64, Error> {
+    fn seconds(&mut self, turn: Turn, amount: Option<f64>, bounded: Bounded) -> Result<f64, Error> {
         let runs = (0..RUNS).map(|_| self.once(turn, amount, bounded));
         let seconds: Vec<f64> = runs.collect::<Result<_, Error>>()?;
         Ok(median(seconds).expect("there are some"))
     }
 
     /// The time that a budget bounds, of a run with a bake of its own where it counts.
-    fn once(&mut self, turn: Turn, amount: Option<u64>, bounded: Bounded) -> Result<f64, Error> {
+    fn once(&mut self, turn: Turn, amount: Option<f64>, bounded: Bounded) -> Result<f64, Error> {
         let bake = match bounded {
             Bounded::Time => 0.0,
             Bounded::BuildTime | Bounded::TotalTime => self.measure_bake(turn, amount)?.seconds,
@@ -173,7 +177,7 @@ impl SceneRun<'_, '_> {
     }
 
     /// A better amount for a variant whose median time missed its budget, where there is one.
-    fn missed(&self, variant: usize, cells: &[(Turn, Cell)]) -> Option<u64> {
+    fn missed(&self, variant: usize, cells: &[(Turn, Cell)]) -> Option<f64> {
         let Variant { budget, bounded, .. } = self.session.experiment.variants[variant];
         let target = match budget {
             Budget::Count => return None,
@@ -182,9 +186,8 @@ impl SceneRun<'_, '_> {
         };
         let seconds = median_seconds(variant, bounded, cells)?;
         let amount = self.amounts[variant]?;
-        let range = self.session.experiment.variants[variant].cost_range();
-        let better = (amount as f64 * target / seconds).round() as u64;
-        let better = better.clamp(*range.start(), *range.end());
+        let amounts = self.session.experiment.variants[variant].amounts();
+        let better = amounts.nearest(amounts.work(amount) * target / seconds);
         (miss(seconds, target) > TOLERANCE && better != amount).then_some(better)
     }
 }

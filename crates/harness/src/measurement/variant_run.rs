@@ -14,7 +14,7 @@ impl SceneRun<'_, '_> {
     pub(crate) fn measure(
         &mut self,
         turn: Turn,
-        amount: Option<u64>,
+        amount: Option<f64>,
         look: Look<'_>,
     ) -> Result<Measured, Error> {
         let mut measured = self.with_bake(turn, amount, false, |method, frame, set, bake| {
@@ -28,7 +28,7 @@ impl SceneRun<'_, '_> {
     pub(crate) fn measure_bake(
         &mut self,
         turn: Turn,
-        amount: Option<u64>,
+        amount: Option<f64>,
     ) -> Result<BakeCost, Error> {
         self.with_bake(turn, amount, true, |_, _, _, bake| {
             Ok(bake.map_or_else(BakeCost::default, |(_, cost)| cost))
@@ -40,7 +40,7 @@ impl SceneRun<'_, '_> {
     fn with_bake<T>(
         &mut self,
         turn: Turn,
-        amount: Option<u64>,
+        amount: Option<f64>,
         anew: bool,
         call: impl FnOnce(
             &dyn Method,
@@ -51,14 +51,14 @@ impl SceneRun<'_, '_> {
     ) -> Result<T, Error> {
         let Session { experiment, bakes, gpu, .. } = &mut *self.session;
         let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
-        let set = |amount| parameters.with_count(method.cost_parameter(), amount);
+        let set = |amount| parameters.with_number(method.cost().parameter, amount);
         let parameters = &amount.map_or_else(|| parameters.clone(), set);
         let frame = self.stage.frame(*visibility, turn.seed);
         let Some(baking) = method.baking() else { return call(*method, &frame, parameters, None) };
         let origin = Origin {
             scene: self.hashes.clone(),
             seed: turn.seed,
-            amount: parameters.count(method.cost_parameter()),
+            amount: parameters.real(method.cost().parameter),
         };
         let (variant, camera) = (turn.variant, self.camera);
         let wanted = Wanted { variant, baking, parameters, origin, camera };

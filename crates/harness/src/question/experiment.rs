@@ -12,7 +12,7 @@
 //! columns = ["counts", "time", "rmse"] # of the table; see columns.rs
 //! [[methods]]                        # any number; all combinations of the values run
 //! id = "…"
-//! parameters = { samples = [16, 64] }
+//! parameters = { samples = [16, 64] } # words in quotation marks
 //! visibility = "traced"              # or "ignored", or a list; left out: the method's own
 //! [[methods]]
 //! id = "…"
@@ -437,7 +437,8 @@ seeds = [1]
             ("samples = 4 ", "samples = [1, 4]", "single values"),
             ("[1, 4, 16]", "[1, 1]", "listed twice"),
             ("[1, 4, 16]", "[]", "without values"),
-            ("[1, 4, 16]", "\"many\"", "must be a number"),
+            ("[1, 4, 16]", "[true]", "must be a number, a word or a list"),
+            ("[1, 4, 16]", "\"many\"", "must be a whole number"),
             ("scenes = [\"cornell\"]", "scenes = []", "at least one entry"),
             ("profiles.quick", "profiles.quik", "did you mean `quick`?"),
             ("{ samples = [1, 4, 16] }", "{}\nbudget = \"time\"", "no `times`"),

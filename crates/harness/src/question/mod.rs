@@ -6,6 +6,7 @@ pub(crate) mod experiment;
 pub(crate) mod jobs;
 pub(crate) mod plan;
 pub(crate) mod published;
+pub(crate) mod recorded_value;
 pub(crate) mod references;
 pub(crate) mod settings;
 pub(crate) mod sweep;

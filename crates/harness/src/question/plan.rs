@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use std::ops::RangeInclusive;
-
-use manylights_method::{Method, ParameterKind, Parameters};
+use manylights_method::{Amounts, Method, Parameters};
 use manylights_scene::{Transport, Visibility};
 use serde::{Deserialize, Serialize};
 
+use crate::question::recorded_value::RecordedValue;
 use crate::show::numbers::milliseconds;
 
 /// What a run may cost.
@@ -90,7 +89,7 @@ impl Variant {
             Budget::Seconds(seconds) => format!(" {bounded}={} ms", milliseconds(seconds)),
             Budget::Baseline => format!(" {bounded}=baseline"),
         };
-        self.text(|name| name != self.method.cost_parameter()) + &budget
+        self.text(|name| name != self.method.cost().parameter) + &budget
     }
 
     /// As the label, without the swept parameter: variants that share it form one curve.
@@ -99,24 +98,20 @@ impl Variant {
     }
 
     /// What the cost parameter may be.
-    pub(crate) fn cost_range(&self) -> RangeInclusive<u64> {
-        let cost = self.method.cost_parameter();
-        let declared = self.method.parameters().iter().find(|info| info.name == cost);
-        match declared.map(|info| info.kind) {
-            Some(ParameterKind::Count { min, max, .. }) => min..=max,
-            _ => unreachable!("a test of the registry holds cost parameters to be counts"),
-        }
+    pub(crate) fn amounts(&self) -> Amounts {
+        let amounts = Amounts::new(self.method.cost(), self.method.parameters());
+        amounts.expect("a test of the registry holds costs to be positive numbers")
     }
 
     /// Whether the value of a parameter is found by the harness.
     pub(crate) fn is_searched(&self, name: &str) -> bool {
-        self.budget != Budget::Count && name == self.method.cost_parameter()
+        self.budget != Budget::Count && name == self.method.cost().parameter
     }
 
     /// Values of the parameters but for one that the harness finds: what decides a picture.
-    pub(crate) fn given(&self) -> BTreeMap<String, f64> {
+    pub(crate) fn given(&self) -> BTreeMap<String, RecordedValue> {
         let given = self.parameters.iter().filter(|(name, _)| !self.is_searched(name));
-        given.map(|(name, value)| (name.to_owned(), value)).collect()
+        given.map(|(name, value)| (name.to_owned(), value.into())).collect()
     }
 
     /// The visibility, where it is not the method's own.

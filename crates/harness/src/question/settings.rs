@@ -1,23 +1,35 @@
 //! Values for a method's parameters, as people write them.
 
-use manylights_method::{Method, Parameters};
+use manylights_method::{Method, ParameterInfo, ParameterKind, Parameters};
 
 use crate::names;
 
 /// Checked values for all parameters of `method`.
 ///
 /// # Errors
-/// One line; the nearest name for an unknown key.
+/// One line; the nearest name for an unknown key or word.
 pub(crate) fn parameters<'s>(
     method: &dyn Method,
     settings: impl IntoIterator<Item = (&'s str, &'s str)>,
 ) -> Result<Parameters, String> {
     let settings: Vec<_> = settings.into_iter().collect();
-    let known = || method.parameters().iter().map(|info| info.name);
-    if let Some((key, _)) = settings.iter().find(|(key, _)| !known().any(|name| name == *key)) {
-        return Err(names::unknown(&format!("parameter of {}", method.id()), key, known()));
+    let infos = method.parameters();
+    for (key, text) in &settings {
+        let called = |info: &&ParameterInfo| info.name == *key || info.formerly == Some(key);
+        let Some(info) = infos.iter().find(called) else {
+            let known = infos.iter().map(|info| info.name);
+            return Err(names::unknown(&format!("parameter of {}", method.id()), key, known));
+        };
+        // A number is none of the words, but what stood for one once.
+        if let ParameterKind::Choice { words, .. } = info.kind
+            && text.parse::<f64>().is_err()
+            && words.iter().all(|known| known.word != *text)
+        {
+            let known = words.iter().map(|known| known.word);
+            return Err(names::unknown(&format!("word for parameter `{key}`"), text, known));
+        }
     }
-    Parameters::new(method.parameters(), settings)
+    Parameters::new(infos, settings)
 }
 
 /// Splits `KEY=VALUE`.

@@ -75,7 +75,7 @@ impl Entry {
         let is_list = |name: &str| matches!(self.parameters.get(name), Some(toml::Value::Array(_)));
         let names = method.parameters().iter().map(|info| info.name);
         let swept = names.into_iter().find(|name| is_list(name));
-        let swept = swept.unwrap_or(method.cost_parameter());
+        let swept = swept.unwrap_or(method.cost().parameter);
         let mut variants = Vec::new();
         for visibility in self.visibilities(method.visibility())? {
             for row in &grid {
@@ -123,7 +123,7 @@ impl Entry {
         times: &'b [Budget],
     ) -> Result<&'b [Budget], String> {
         let Some(bounded) = self.budget.bounded() else { return Ok(&[Budget::Count]) };
-        let (id, word, cost) = (&self.id, bounded.word(), method.cost_parameter());
+        let (id, word, cost) = (&self.id, bounded.word(), method.cost().parameter);
         let refuse = |reason: String| Err(format!("methods: `{id}` has a {word} budget, {reason}"));
         let builds = || method.baking().is_some_and(|baking| baking.depends_on().amount);
         if times.is_empty() {
@@ -149,7 +149,7 @@ impl Entry {
             let mut extended = Vec::with_capacity(grid.len() * values.len());
             for row in &grid {
                 for value in values {
-                    extended.push([row, &[(key.as_str(), number(key, value)?)][..]].concat());
+                    extended.push([row, &[(key.as_str(), text(key, value)?)][..]].concat());
                 }
             }
             grid = extended;
@@ -158,10 +158,11 @@ impl Entry {
     }
 }
 
-fn number(key: &str, value: &toml::Value) -> Result<String, String> {
+fn text(key: &str, value: &toml::Value) -> Result<String, String> {
     match value {
+        toml::Value::String(word) => Ok(word.clone()),
         toml::Value::Integer(number) => Ok(number.to_string()),
         toml::Value::Float(number) => Ok(number.to_string()),
-        other => Err(format!("parameter `{key}` = `{other}`: must be a number or a list of them")),
+        other => Err(format!("parameter `{key}` = `{other}`: must be a number, a word or a list")),
     }
 }

@@ -52,7 +52,7 @@ pub(crate) fn render_scene(
     let texts = [
         ("lights", settings.lights.to_string()),
         ("clamp", settings.clamp.unwrap_or(0.0).to_string()),
-        ("radius", settings.radius.unwrap_or(0.0).to_string()),
+        ("attenuation_radius", settings.attenuation_radius.unwrap_or(0.0).to_string()),
     ];
     let parameters = Parameters::new(
         VirtualLights(Vpl).parameters(),

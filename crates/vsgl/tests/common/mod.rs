@@ -85,8 +85,8 @@ pub(crate) fn render_scene(
 
 fn parameters(settings: &Settings) -> Parameters {
     let lobe = match settings.lobe {
-        SpecularLobe::Anisotropic => "0",
-        SpecularLobe::Filtered => "1",
+        SpecularLobe::Anisotropic => "anisotropic",
+        SpecularLobe::Filtered => "filtered",
     };
     let texts = [
         ("lights", settings.lights.to_string()),

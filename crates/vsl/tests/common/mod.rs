@@ -17,7 +17,7 @@ pub(crate) static GPU: LazyLock<Gpu> =
 
 pub(crate) const SETTINGS: Settings = Settings {
     lights: 256,
-    samples: 9,
+    directions: 9,
     sampling: Sampling::Both,
     radius: RadiusRule::FieldOfView,
     scale: 1.0,
@@ -60,19 +60,19 @@ pub(crate) fn render(scene: &str, resolution: [u32; 2], settings: &Settings, see
 
 fn parameters(settings: &Settings) -> Parameters {
     let sampling = match settings.sampling {
-        Sampling::Brdf => "0",
-        Sampling::Cone => "1",
-        Sampling::Both => "2",
+        Sampling::Brdf => "brdf",
+        Sampling::Cone => "cone",
+        Sampling::Both => "both",
     };
     let radius = match settings.radius {
-        RadiusRule::NearestNeighbours => "0",
-        RadiusRule::MapNeighbours => "1",
-        RadiusRule::FieldOfView => "2",
-        RadiusRule::Fixed => "3",
+        RadiusRule::NearestNeighbours => "neighbours",
+        RadiusRule::MapNeighbours => "r1",
+        RadiusRule::FieldOfView => "r2",
+        RadiusRule::Fixed => "fixed",
     };
     let texts = [
         ("lights", settings.lights.to_string()),
-        ("samples", settings.samples.to_string()),
+        ("directions", settings.directions.to_string()),
         ("sampling", sampling.to_owned()),
         ("radius", radius.to_owned()),
         ("scale", settings.scale.to_string()),

@@ -39,7 +39,7 @@ impl Against {
     fn of(self, point: &Point) -> [f64; 3] {
         match self {
             Self::Time => point.seconds.map(|seconds| 1e3 * seconds),
-            Self::Amount => [point.amount as f64; 3],
+            Self::Amount => [point.amount; 3],
         }
     }
 }
