@@ -9,7 +9,7 @@ pub enum Binding {
     StorageMut,
     /// `var<uniform>`.
     Uniform,
-    /// `var<uniform>` behind a dynamic offset: one of [`UniformBatches`].
+    /// `var<uniform>` behind a dynamic offset: one of [`UniformBatches`](crate::UniformBatches).
     Batch,
     /// `texture_2d<u32>`.
     TextureUint,

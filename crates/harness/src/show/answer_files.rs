@@ -15,7 +15,7 @@ use crate::show::table;
 /// The files that every answer has beside a sheet for each scene.
 const FILES: [&str; 5] = ["table.md", "table.tex", "table.csv", "curves.svg", "curves.png"];
 
-/// What [`write`] writes to `out` for scenes of these names.
+/// What [`write()`] writes to `out` for scenes of these names.
 pub(crate) fn paths<'a>(scenes: impl Iterator<Item = &'a str>, out: &Path) -> Vec<PathBuf> {
     let names = FILES.into_iter().chain([report::FILE]).map(str::to_owned);
     names.chain(scenes.map(sheet_name)).map(|name| out.join(name)).collect()

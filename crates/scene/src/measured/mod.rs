@@ -1,7 +1,7 @@
 //! Measured reflectances: files of the RGL and MERL databases, isotropic.
 //!
 //! There is one instance of a measurement in the whole process, and it lives as long: a
-//! [`Brdf`] with a measurement is as small a value as any other, and so are the records
+//! [`Brdf`](crate::Brdf) with a measurement is as small a value as any other, and so are the records
 //! made from it. Reading the same data again, also for another scene, finds the table that is there;
 //! dropping a scene frees none.
 
