@@ -9,7 +9,7 @@
 //! - No evaluation allocates: tables are made once by `new`.
 //!
 //! Papers are cited as in ARCHITECTURE.md (thesis, JFIG, RC, HVL).
-#![warn(clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 #![forbid(unsafe_code)]
 
 pub mod basis;

@@ -13,7 +13,7 @@
 //!
 //! Options, both off by default: `clamp` bounds the geometry term ⟨n_x·ω⟩⟨n_j·−ω⟩/d²; `attenuation_radius` replaces
 //! 1/d² by Yuksel's attenuation (thesis 5.18).
-#![warn(clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
 mod gather;
 mod light_record;
