@@ -36,7 +36,7 @@ pub(crate) fn place(methods: Methods, id: &str) -> Result<usize, String> {
 mod tests {
     use std::collections::{BTreeMap, BTreeSet};
 
-    use manylights_method::{Amounts, Direction, ParameterInfo, ParameterKind};
+    use manylights_method::{Amounts, Direction, ParameterInfo, ParameterKind, Parameters};
 
     use super::*;
 
@@ -61,6 +61,8 @@ mod tests {
                 assert!(seen.insert(info.name), "{} declares {} twice", method.id(), info.name);
                 assert!(well_formed(&info.name.replace('_', "-")), "{}", info.name);
                 assert!(info.help.len() > 8, "{} {} has no help", method.id(), info.name);
+                let before = info.introduced.map(|text| (info.name, text));
+                Parameters::new(method.parameters(), before).expect("a value of the parameter");
             }
             let baked = method.baking().map_or(&[][..], |baking| baking.counters());
             for counters in [method.counters(), baked] {

@@ -167,6 +167,14 @@ fn what_no_scene_or_seed_answers_is_refused() {
             format!("{EXPERIMENT}{exposure}"),
             "exposures: unknown scene `cornel`: did you mean `corn",
         ),
+        // With cameras, pictures are those of the views.
+        (
+            EXPERIMENT
+                .replace("\"cornell\", \"trio\"", "\"atrium\"")
+                .replace("transport", "cameras = [\"nave\", \"aisle\"]\ntransport")
+                + &crop.replace("cornel", "atrium-nav"),
+            "crops: unknown scene `atrium-nav`: did you mean `atrium-nave`?",
+        ),
         (EXPERIMENT.replace("[1, 2]", "[1, 1]"), "seeds: `1` is listed twice"),
     ] {
         let file = place.write("asked.toml", &text);

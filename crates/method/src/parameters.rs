@@ -271,6 +271,18 @@ mod tests {
     }
 
     #[test]
+    fn the_time_before_a_parameter_is_one_of_its_values() {
+        let [lights, _, form] = INFOS else { panic!("three") };
+        assert!(!form.is_as_before(ParameterValue::Word("full")), "it was there from the start");
+        let form = ParameterInfo { introduced: Some("full"), ..*form };
+        assert!(form.is_as_before(ParameterValue::Word("full")));
+        assert!(!form.is_as_before(ParameterValue::Word("zonal")));
+        let lights = ParameterInfo { introduced: Some("9"), ..*lights };
+        assert!(lights.is_as_before(ParameterValue::Number(9.0)));
+        assert!(!lights.is_as_before(ParameterValue::Number(4.0)));
+    }
+
+    #[test]
     fn what_is_not_allowed_is_answered_with_what_is() {
         for (key, text, said) in [
             ("form", "1", "parameter `form` = `1`: say form=zonal (words: full, zonal)"),

@@ -9,6 +9,7 @@ use crate::answer::rows::{RowResult, SceneAnswer};
 use crate::commands::machine::Machine;
 use crate::error::Failure;
 use crate::measurement::cell::Outcome;
+use crate::measurement::inputs;
 use crate::measurement::session::Session;
 use crate::measurement::stage;
 use crate::output;
@@ -143,9 +144,13 @@ pub(crate) fn load(experiment: &Experiment, assets: Option<&Path>) -> Result<Vec
         }
         scenes.push(scene);
     }
-    experiment
-        .check_scenes(scenes.iter().map(|scene| scene.name.as_str()))
-        .map_err(Failure::input)?;
+    let names: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
+    let cameras = experiment.cameras();
+    let views: Vec<String> = names
+        .iter()
+        .flat_map(|name| cameras.iter().map(|camera| inputs::view(name, *camera)))
+        .collect();
+    experiment.check_scenes(&names, &views).map_err(Failure::input)?;
     Ok(scenes)
 }
 

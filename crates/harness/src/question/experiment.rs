@@ -300,20 +300,21 @@ fn distinct<T: PartialEq + std::fmt::Debug>(list: &str, values: &[T]) -> Result<
 }
 
 impl Experiment {
-    /// Refuses what is said of scenes that are not among those of these names.
+    /// Refuses what is said of scenes that are not among `scenes`, and of pictures that are not among
+    /// `views`: scenes seen by the cameras that are listed.
     ///
     /// # Errors
     /// One line with the nearest name.
-    pub(crate) fn check_scenes<'n>(
-        &self,
-        scenes: impl Iterator<Item = &'n str> + Clone,
-    ) -> Result<(), String> {
-        let exposures = self.exposures.keys().map(|name| ("exposures", name));
-        let crops = self.crops.iter().map(|crop| ("crops", &crop.scene));
-        let published = self.published.iter().map(|published| ("published", &published.scene));
-        for (place, name) in exposures.chain(crops).chain(published) {
-            if !scenes.clone().any(|scene| scene == name) {
-                return Err(format!("{place}: {}", names::unknown("scene", name, scenes)));
+    pub(crate) fn check_scenes(&self, scenes: &[&str], views: &[String]) -> Result<(), String> {
+        let views: Vec<&str> = views.iter().map(String::as_str).collect();
+        let exposures = self.exposures.keys().map(|name| ("exposures", name, scenes));
+        let crops = self.crops.iter().map(|crop| ("crops", &crop.scene, &views[..]));
+        let published = self.published.iter();
+        let published = published.map(|value| ("published", &value.scene, &views[..]));
+        for (place, name, known) in exposures.chain(crops).chain(published) {
+            if !known.contains(&name.as_str()) {
+                let known = known.iter().copied();
+                return Err(format!("{place}: {}", names::unknown("scene", name, known)));
             }
         }
         Ok(())
