@@ -10,7 +10,7 @@ pub struct Settings {
     pub resolution: [u32; 2],
     /// Same seed, same picture, bit for bit, whatever the number of threads.
     pub seed: u64,
-    /// Samples a pixel, rounded up to two or more whole slices of [`SLICE`](crate::SLICE).
+    /// Samples a pixel, rounded up to two or more whole slices of [`SLICE`].
     pub samples: u32,
 }
 
