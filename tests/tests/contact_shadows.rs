@@ -53,9 +53,9 @@ fn a_low_fin_shades_what_is_behind_it() {
         assert!(unseen.into_iter().all(|unseen| unseen == fin), "on the host, fin: {fin}");
 
         let shadows = Shadows::new(&stage.on_gpu, scene).expect("the hierarchy fits");
-        let hidden = shadows.hidden_lights(&[Center::new(LIGHT, Vec3::X)]);
-        let hidden = hidden.expect("a pass");
-        assert!(hidden.iter().all(|&hidden| hidden == fin), "on the adapter, fin: {fin}");
+        let occluded = shadows.occluded_lights(&[Center::new(LIGHT, Vec3::X)]);
+        let occluded = occluded.expect("a pass");
+        assert!(occluded.iter().all(|&occluded| occluded == fin), "on the adapter, fin: {fin}");
 
         let resolution = stage.on_gpu.resolution();
         let settings = Settings {
@@ -71,7 +71,7 @@ fn a_low_fin_shades_what_is_behind_it() {
     }
 }
 
-/// A light that lies just behind a wall is hidden, one on it is not: the far end of a shadow ray.
+/// A light that lies just behind a wall is occluded, one on it is not: the far end of a shadow ray.
 #[test]
 fn a_wall_hides_what_lies_close_behind_it() {
     let stage = Stage::new(scene(true), [4, 4]);
@@ -82,8 +82,8 @@ fn a_wall_hides_what_lies_close_behind_it() {
         let seen =
             |s: &manylights_gpu::SurfaceRecord| bvh.sees([s.position, Vec3::Y], [light, Vec3::X]);
         assert!(stage.surfaces().iter().all(|s| seen(s) == visible), "on the host, {depth} m");
-        let hidden = shadows.hidden_lights(&[Center::new(light, Vec3::X)]);
-        let hidden = hidden.expect("a pass");
-        assert!(hidden.iter().all(|hidden| *hidden != visible), "on the adapter, {depth} m");
+        let occluded = shadows.occluded_lights(&[Center::new(light, Vec3::X)]);
+        let occluded = occluded.expect("a pass");
+        assert!(occluded.iter().all(|occluded| *occluded != visible), "on the adapter, {depth} m");
     }
 }

@@ -14,7 +14,7 @@ use manylights_tests::Stage;
 use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 use manylights_vsgl::oracle::DIFFUSE_SHARPNESS;
-use manylights_vsgl::{GaussianLight, Lobe, Settings, Vsgl, gaussian_lights, oracle};
+use manylights_vsgl::{GaussianLight, GaussianLobe, Settings, Vsgl, gaussian_lights, oracle};
 use manylights_vsl::Vsl;
 
 fn closed_form() -> f64 {
@@ -120,7 +120,7 @@ fn gaussian_bias(lights: u64, texels: u32) -> [f64; 2] {
 /// Irradiance, in units of the exitance, that a plane covered by lights receives from itself: a Gaussian
 /// of places is not flat, so half of each lies above the plane. Point lights give none.
 fn self_illumination() -> f64 {
-    let lobe = |position, power| Lobe {
+    let lobe = |position, power| GaussianLobe {
         position,
         // Squares of one metre.
         variance: 1.0 / 12.0,

@@ -138,9 +138,9 @@ fn of_shaders() -> Sketch {
     let (lights, _) = distribute(&stage.on_gpu, &stage.scene, 64, 1).expect("lights");
     let centers: Vec<_> = lights.iter().map(Into::into).collect();
     let shadows = Shadows::new(&stage.on_gpu, &stage.scene).expect("the hierarchy fits");
-    let hidden = shadows.hidden_lights(&centers).expect("a pass");
-    let dark = hidden.chunks(surfaces.len()).map(|pixels| {
-        pixels.iter().filter(|hidden| **hidden).count() as f64 / surfaces.len() as f64
+    let occluded = shadows.occluded_lights(&centers).expect("a pass");
+    let dark = occluded.chunks(surfaces.len()).map(|pixels| {
+        pixels.iter().filter(|occluded| **occluded).count() as f64 / surfaces.len() as f64
     });
     let [placement, shaders, _] = shared();
     Sketch::new([placement, shaders], &[seen, dark.collect()].concat())

@@ -25,13 +25,14 @@ fn pixels_sum_what_they_see<L: Copy>(
         let (lights, surfaces) = (lights(&stage), stage.surfaces());
         let centers: Vec<_> = lights.iter().map(&center).collect();
         let shadows = Shadows::new(&stage.on_gpu, &stage.scene).expect("the hierarchy fits");
-        let hidden = shadows.hidden_lights(&centers).expect("a pass");
-        let share = hidden.iter().filter(|hidden| **hidden).count() as f64 / hidden.len() as f64;
-        assert!(share > 0.05 && share < 0.95, "{share} hidden: a weak test");
+        let occluded = shadows.occluded_lights(&centers).expect("a pass");
+        let share =
+            occluded.iter().filter(|occluded| **occluded).count() as f64 / occluded.len() as f64;
+        assert!(share > 0.05 && share < 0.95, "{share} occluded: a weak test");
         let eye = stage.scene.cameras[0].position.as_dvec3();
         let truth = |(pixel, surface): (usize, &SurfaceRecord)| {
-            let pairs = lights.iter().zip(hidden.chunks(surfaces.len()));
-            let seen = pairs.filter(|(_, hidden)| !hidden[pixel]).map(|(light, _)| *light);
+            let pairs = lights.iter().zip(occluded.chunks(surfaces.len()));
+            let seen = pairs.filter(|(_, occluded)| !occluded[pixel]).map(|(light, _)| *light);
             radiance(surface, eye, &seen.collect::<Vec<_>>())
         };
         let truth: Vec<_> = surfaces.iter().enumerate().map(truth).collect();

@@ -32,9 +32,9 @@ impl PointBindings {
         layout
     }
 
-    /// The text of the module `bindings`: `hidden`, `settings` and each table by its name.
+    /// The text of the module `bindings`: `occluded`, `settings` and each table by its name.
     pub fn module(&self) -> String {
-        let mut variables = vec!["var<storage, read> hidden: array<u32>".to_owned()];
+        let mut variables = vec!["var<storage, read> occluded: array<u32>".to_owned()];
         let mut text = String::new();
         if !self.settings.is_empty() {
             let field = |(name, kind): &(_, _)| format!("    {name}: {kind},\n");

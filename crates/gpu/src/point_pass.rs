@@ -26,13 +26,13 @@ pub struct PointPass {
     points: Buffer,
     results: Buffer,
     uniform: Buffer,
-    hidden: Buffer,
+    occluded: Buffer,
     own: Vec<Buffer>,
 }
 
 impl PointPass {
     /// The first `count` records of `points`, of any type, with results of `stride` bytes each, which
-    /// start as zeros. `hidden` has the bits that `package::visible` reads, where a kernel does; `own`
+    /// start as zeros. `occluded` has the bits that `package::visible` reads, where a kernel does; `own`
     /// are the estimator's settings, where it has some, and its tables.
     ///
     /// # Errors
@@ -43,7 +43,7 @@ impl PointPass {
         (points, count): (&Buffer, u32),
         stride: u32,
         uniform: &impl Pod,
-        hidden: Option<&Buffer>,
+        occluded: Option<&Buffer>,
         own: Vec<Buffer>,
     ) -> Result<Self, Error> {
         Ok(Self {
@@ -53,8 +53,8 @@ impl PointPass {
             points: points.clone(),
             results: gpu.zeroed(name, u64::from(count) * u64::from(stride))?,
             uniform: gpu.uniform(name, uniform)?,
-            // Where no kernel reads which records are hidden, any buffer will do.
-            hidden: hidden.unwrap_or(points).clone(),
+            // Where no kernel reads which records are occluded, any buffer will do.
+            occluded: occluded.unwrap_or(points).clone(),
             own,
         })
     }
@@ -64,9 +64,9 @@ impl PointPass {
     /// # Errors
     /// Where the kernel binds something else.
     pub fn bind(&self, kernel: &Arc<Kernel>, batches: &UniformBatches) -> Result<Pass, Error> {
-        let [uniform, points, results, hidden] =
-            [&self.uniform, &self.points, &self.results, &self.hidden].map(Resource::Buffer);
-        let mut resources = vec![uniform, points, Resource::Batches(batches), results, hidden];
+        let [uniform, points, results, occluded] =
+            [&self.uniform, &self.points, &self.results, &self.occluded].map(Resource::Buffer);
+        let mut resources = vec![uniform, points, Resource::Batches(batches), results, occluded];
         resources.extend(self.own.iter().map(Resource::Buffer));
         self.gpu.pass(self.name, kernel, &resources)
     }

@@ -57,7 +57,7 @@ pub struct Shadows {
     triangles: Buffer,
     kernel: Arc<Kernel>,
     view: Buffer,
-    hidden: Buffer,
+    occluded: Buffer,
     pixels: u32,
     lights_a_batch: usize,
 }
@@ -84,7 +84,7 @@ impl Shadows {
             surfaces: frame.surfaces().clone(),
             kernel: gpu.kernel("shadow", &wgsl, &bindings)?,
             view: gpu.uniform("view of shadows", &view)?,
-            hidden: gpu.zeroed("hidden lights", 4 * words)?,
+            occluded: gpu.zeroed("occluded lights", 4 * words)?,
             vertices: frame.vertices().clone(),
             triangles: frame.triangles().clone(),
             occluders,
@@ -93,7 +93,7 @@ impl Shadows {
         })
     }
 
-    /// Lights of which [`Shadows::hidden`] has a bit.
+    /// Lights of which [`Shadows::occluded`] has a bit.
     pub fn lights_a_batch(&self) -> usize {
         self.lights_a_batch
     }
@@ -111,26 +111,26 @@ impl Shadows {
     ///
     /// # Errors
     /// Where the device gave up.
-    pub fn hidden_lights(&self, centers: &[Center]) -> Result<Vec<bool>, Error> {
+    pub fn occluded_lights(&self, centers: &[Center]) -> Result<Vec<bool>, Error> {
         let (gpu, most) = (&self.gpu, self.lights_a_batch);
         let batches = UniformBatches::new(gpu, "centres", centers, Self::CAPACITY, most)?;
         let pass = self.pass(&batches)?;
         let pixels = self.pixels as usize;
-        let mut hidden = Vec::with_capacity(centers.len() * pixels);
+        let mut occluded = Vec::with_capacity(centers.len() * pixels);
         for (index, &count) in batches.counts().iter().enumerate() {
             gpu.run(&[self.dispatch(&pass, index)])?;
-            let words: Vec<u32> = gpu.read(&self.hidden)?;
+            let words: Vec<u32> = gpu.read(&self.occluded)?;
             for light in 0..count as usize {
                 let words = &words[light / WORD * pixels..][..pixels];
-                hidden.extend(words.iter().map(|word| word >> (light % WORD) & 1 == 1));
+                occluded.extend(words.iter().map(|word| word >> (light % WORD) & 1 == 1));
             }
         }
-        Ok(hidden)
+        Ok(occluded)
     }
 
     /// Bit i % 32 of word (i / 32) · pixels + pixel: whether the pixel does not see light i.
-    pub fn hidden(&self) -> &Buffer {
-        &self.hidden
+    pub fn occluded(&self) -> &Buffer {
+        &self.occluded
     }
 
     /// The pass over batches of [`Center`]s.
@@ -139,12 +139,12 @@ impl Shadows {
     /// Where the adapter refuses.
     pub fn pass(&self, centers: &UniformBatches) -> Result<Pass, Error> {
         let Occluders { nodes, blocks, .. } = &*self.occluders;
-        let [view, surfaces, hidden] =
-            [&self.view, &self.surfaces, &self.hidden].map(Resource::Buffer);
+        let [view, surfaces, occluded] =
+            [&self.view, &self.surfaces, &self.occluded].map(Resource::Buffer);
         let [vertices, triangles, nodes, blocks] =
             [&self.vertices, &self.triangles, nodes, blocks].map(Resource::Buffer);
         let centers = Resource::Batches(centers);
-        let resources = [view, surfaces, centers, hidden, vertices, triangles, nodes, blocks];
+        let resources = [view, surfaces, centers, occluded, vertices, triangles, nodes, blocks];
         self.gpu.pass("shadow", &self.kernel, &resources)
     }
 

@@ -49,11 +49,11 @@ fn results_of_three_floats_at_points_of_one_add_up_over_batches() {
         storage(&[0.0, 1.0, 2.0]),
     ];
     let points = [1.0_f32, 2.0, 3.0, 4.0, 5.0];
-    // The second record of a batch is hidden from the last point.
-    let hidden = gpu.storage("hidden", &[0_u32, 0, 0, 0, 0b10]).expect("memory");
+    // The second record of a batch is occluded from the last point.
+    let occluded = gpu.storage("occluded", &[0_u32, 0, 0, 0, 0b10]).expect("memory");
     let count = points.len() as u32;
     let pass =
-        PointPass::new(&gpu, "sums", (&storage(&points), count), 12, &count, Some(&hidden), own)
+        PointPass::new(&gpu, "sums", (&storage(&points), count), 12, &count, Some(&occluded), own)
             .expect("memory");
     let records = [1.0_f32, 10.0, 100.0].map(|weight| [weight, 0.0, 0.0, 0.0]);
     let batches = UniformBatches::new(&gpu, "records", &records, 2, 2).expect("memory");

@@ -26,11 +26,11 @@ pub fn diffuse_from_specular<R: Real>(product: &[R]) -> R {
 pub struct Product<R> {
     bands: usize,
     /// The integrals with i ≤ j, those of one k after those of another.
-    entries: Vec<Entry<R>>,
+    entries: Vec<TripleProduct<R>>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Entry<R> {
+struct TripleProduct<R> {
     i: u32,
     j: u32,
     k: u32,
@@ -47,7 +47,12 @@ impl<R: Real> Product<R> {
                 for i in 0..=j {
                     if let Some(value) = gaunt.integral([i, j, k]) {
                         let value = R::of(value);
-                        entries.push(Entry { i: i as u32, j: j as u32, k: k as u32, value });
+                        entries.push(TripleProduct {
+                            i: i as u32,
+                            j: j as u32,
+                            k: k as u32,
+                            value,
+                        });
                     }
                 }
             }
@@ -66,7 +71,7 @@ impl<R: Real> Product<R> {
             assert_eq!(length, count(self.bands), "bands² coefficients");
         }
         product.fill(R::zero());
-        for &Entry { i, j, k, value } in &self.entries {
+        for &TripleProduct { i, j, k, value } in &self.entries {
             let (i, j) = (i as usize, j as usize);
             let pair = if i == j { f[i] * g[i] } else { f[i] * g[j] + f[j] * g[i] };
             product[k as usize] += value * pair;

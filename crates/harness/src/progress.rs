@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 
 use crate::output::say;
 
@@ -13,17 +13,17 @@ const QUIET: Duration = Duration::from_secs(2);
 const INTERVAL: Duration = Duration::from_secs(5);
 
 /// The progress of one piece of work.
-pub(crate) struct Progress {
-    bar: ProgressBar,
+pub(crate) struct ProgressBar {
+    bar: indicatif::ProgressBar,
     label: String,
     started: Instant,
     next_line: Instant,
 }
 
-impl Progress {
+impl ProgressBar {
     /// Work of an amount that [`Self::set`] will tell.
     pub(crate) fn new(label: &str) -> Self {
-        let bar = ProgressBar::new(0);
+        let bar = indicatif::ProgressBar::new(0);
         let style = ProgressStyle::with_template("{prefix} {wide_bar} {percent:>3} % {eta} left");
         bar.set_style(style.expect("the template is well formed"));
         bar.set_prefix(label.to_owned());
@@ -48,7 +48,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for ProgressBar {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }

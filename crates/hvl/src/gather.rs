@@ -22,7 +22,7 @@ pub(crate) const CAPACITY: usize = 512;
 
 /// The lobes that kernels must know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Lobes {
+pub struct LobeKinds {
     /// Some receiver may have a specular lobe.
     pub receivers: bool,
     /// Some light of the batch has one, and its emission is not isotropic.
@@ -40,7 +40,7 @@ pub struct Lobes {
 /// # Errors
 /// Where the shader does not link.
 pub fn linked_shader(
-    lobes: Lobes,
+    lobes: LobeKinds,
     traced: bool,
     settings: &Settings,
 ) -> Result<GatherShader, Error> {
@@ -86,7 +86,7 @@ pub fn linked_shader(
 }
 
 /// Those of [`Materials::tables`].
-fn table_names(lobes: Lobes) -> Vec<Table> {
+fn table_names(lobes: LobeKinds) -> Vec<Table> {
     let tables = [SHAPES, LOBES, EMISSIONS].map(|name| Table { name, element: "vec2f" });
     if lobes.receivers { tables.to_vec() } else { Vec::new() }
 }
@@ -151,11 +151,17 @@ impl Materials {
         if self.measured { 3 } else { 1 + usize::from(self.colored) }
     }
 
-    fn lobes(&self, settings: &Settings) -> [Lobes; 2] {
+    fn lobes(&self, settings: &Settings) -> [LobeKinds; 2] {
         let receivers = !self.shapes.is_empty();
         let lights = receivers && settings.emission_bands != 1;
         let Self { colored, exact_fresnel, measured, .. } = *self;
-        [false, lights].map(|lights| Lobes { receivers, lights, colored, exact_fresnel, measured })
+        [false, lights].map(|lights| LobeKinds {
+            receivers,
+            lights,
+            colored,
+            exact_fresnel,
+            measured,
+        })
     }
 
     /// Their tables among these, on the adapter, as [`table_names`] has them.

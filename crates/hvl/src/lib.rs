@@ -74,7 +74,7 @@ use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun, SceneTa
 use emission::EmissionTables;
 use gather::{CAPACITY, Materials};
 
-pub use gather::{Lobes, linked_shader};
+pub use gather::{LobeKinds, linked_shader};
 pub use light_record::rounded;
 pub use manylights_virtual_lights::VirtualSphere;
 pub use params::{Horizon, MAX_BANDS, Settings};

@@ -160,13 +160,13 @@ fn traced_shadows() {
     let frame = GpuFrame::new(&GPU, &scene, &scene.cameras[0], [24, 18]).expect("the scene fits");
     let centers: Vec<_> = picture.lights.iter().map(|sphere| Center::from(&sphere.light)).collect();
     let shadows = Shadows::new(&frame, &scene).expect("the hierarchy fits");
-    let hidden = shadows.hidden_lights(&centers).expect("a pass");
-    assert!(hidden.iter().filter(|hidden| **hidden).count() > 1000);
+    let occluded = shadows.occluded_lights(&centers).expect("a pass");
+    assert!(occluded.iter().filter(|occluded| **occluded).count() > 1000);
     let peak = picture.image.pixels.as_flattened().iter().copied().fold(0.0, f32::max);
     for (index, (surface, pixel)) in picture.surfaces.iter().zip(&picture.image.pixels).enumerate()
     {
-        let pairs = picture.lights.iter().zip(hidden.chunks(picture.surfaces.len()));
-        let seen = pairs.filter(|(_, hidden)| !hidden[index]).map(|(light, _)| *light);
+        let pairs = picture.lights.iter().zip(occluded.chunks(picture.surfaces.len()));
+        let seen = pairs.filter(|(_, occluded)| !occluded[index]).map(|(light, _)| *light);
         let seen: Vec<_> = seen.collect();
         let truth = oracle::radiance(surface, picture.eye, &seen, &settings).as_vec3();
         let difference = (Vec3::from(*pixel) - truth.max(Vec3::ZERO)).abs().max_element();

@@ -3,17 +3,17 @@
 mod common;
 
 use common::{FORMS, GPU, SETTINGS};
-use manylights_hvl::{Horizon, Lobes, Settings, linked_shader};
+use manylights_hvl::{Horizon, LobeKinds, Settings, linked_shader};
 use manylights_reflectance::Form;
 
-const LAMBERT: Lobes = Lobes {
+const LAMBERT: LobeKinds = LobeKinds {
     receivers: false,
     lights: false,
     colored: false,
     exact_fresnel: false,
     measured: false,
 };
-const GLOSSY: Lobes = Lobes { receivers: true, lights: true, colored: true, ..LAMBERT };
+const GLOSSY: LobeKinds = LobeKinds { receivers: true, lights: true, colored: true, ..LAMBERT };
 
 #[test]
 fn a_lambertian_scene_links_no_ggx() {
@@ -41,13 +41,13 @@ fn a_lambertian_scene_links_no_ggx() {
 fn every_permutation_is_valid() {
     let lobes = [
         LAMBERT,
-        Lobes { receivers: true, ..LAMBERT },
-        Lobes { lights: false, ..GLOSSY },
-        Lobes { colored: false, ..GLOSSY },
+        LobeKinds { receivers: true, ..LAMBERT },
+        LobeKinds { lights: false, ..GLOSSY },
+        LobeKinds { colored: false, ..GLOSSY },
         GLOSSY,
-        Lobes { exact_fresnel: true, ..GLOSSY },
-        Lobes { measured: true, ..GLOSSY },
-        Lobes { measured: true, exact_fresnel: true, ..GLOSSY },
+        LobeKinds { exact_fresnel: true, ..GLOSSY },
+        LobeKinds { measured: true, ..GLOSSY },
+        LobeKinds { measured: true, exact_fresnel: true, ..GLOSSY },
     ];
     for form in FORMS {
         for lobes in lobes {

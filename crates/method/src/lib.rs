@@ -15,6 +15,7 @@ use manylights_scene::{Camera, Scene, Transport, Visibility};
 
 pub use bake::{Bake, Baking, Dependencies};
 pub use cost::{Amounts, Cost, Direction};
+pub use manylights_gpu::PassTime;
 pub use parameters::{ChoiceWord, ParameterInfo, ParameterKind, ParameterValue, Parameters};
 
 /// Where the work of a method is done.
@@ -66,15 +67,6 @@ pub struct CounterInfo {
     pub name: &'static str,
     /// What is counted.
     pub help: &'static str,
-}
-
-/// The time that one pass took, by the processor's own clock.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PassTime {
-    /// `distribute`, `gather`, …
-    pub pass: &'static str,
-    /// Seconds, summed over the run so far.
-    pub seconds: f64,
 }
 
 /// What a method has to say when it cannot go on.

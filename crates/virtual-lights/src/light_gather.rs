@@ -90,8 +90,8 @@ impl LightGather {
         own: Vec<Buffer>,
         shadows: Option<Shadows>,
     ) -> Result<Self, Error> {
-        let (hidden, view) = (shadows.as_ref().map(Shadows::hidden), View { camera, pixels });
-        let pixels = PointPass::new(gpu, "gather", (surfaces, pixels), 16, &view, hidden, own)?;
+        let (occluded, view) = (shadows.as_ref().map(Shadows::occluded), View { camera, pixels });
+        let pixels = PointPass::new(gpu, "gather", (surfaces, pixels), 16, &view, occluded, own)?;
         let kernel = |shader: &GatherShader| {
             let workgroups = pixels.workgroups(shader.pixels_a_group);
             let kernel = shader.compile(gpu)?;

@@ -213,8 +213,7 @@ impl<'a> ManyLightFrame<'a> {
 }
 
 /// The lights of a picture on the adapter, and the passes that placed them there.
-pub type PlacedLights =
-    Result<(LightBatches, Vec<manylights_gpu::PassTime>), manylights_gpu::Error>;
+pub type PlacedLights = Result<(LightBatches, Vec<PassTime>), manylights_gpu::Error>;
 
 /// A picture in the making: lights are placed in the first step, then gathered batch by batch.
 pub struct ManyLightRun<'a> {
@@ -250,16 +249,11 @@ impl<'a> ManyLightRun<'a> {
 
     /// Adds up the times of passes of one name. What `since` then took beyond them is named as a pass of
     /// the host, so that passes leave nothing out.
-    fn add_times(
-        &mut self,
-        times: &[manylights_gpu::PassTime],
-        host: &'static str,
-        since: Instant,
-    ) {
+    fn add_times(&mut self, times: &[PassTime], host: &'static str, since: Instant) {
         let passes: f64 = times.iter().map(|time| time.seconds).sum();
         let seconds = (since.elapsed().as_secs_f64() - passes).max(0.0);
-        let host = manylights_gpu::PassTime { pass: host, seconds };
-        for &manylights_gpu::PassTime { pass, seconds } in times.iter().chain([&host]) {
+        let host = PassTime { pass: host, seconds };
+        for &PassTime { pass, seconds } in times.iter().chain([&host]) {
             match self.times.iter_mut().find(|time| time.pass == pass) {
                 Some(time) => time.seconds += seconds,
                 None => self.times.push(PassTime { pass, seconds }),

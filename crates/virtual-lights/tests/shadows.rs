@@ -13,26 +13,26 @@ fn disagreement(scene: &Scene, resolution: [u32; 2], lights: u64) -> f64 {
     let (lights, _) = distribute(&frame, scene, lights, 1).expect("lights");
     let centers: Vec<_> = lights.iter().map(Center::from).collect();
     let shadows = Shadows::new(&frame, scene).expect("the hierarchy fits");
-    let hidden = shadows.hidden_lights(&centers).expect("a pass");
+    let occluded = shadows.occluded_lights(&centers).expect("a pass");
     let surfaces: Vec<SurfaceRecord> = gpu.read(frame.surfaces()).expect("a G-buffer");
-    assert_eq!(hidden.len(), surfaces.len() * lights.len());
+    assert_eq!(occluded.len(), surfaces.len() * lights.len());
     let bvh = Bvh::build(scene);
     let (mut dark, mut wrong) = (0, 0);
-    for (light, hidden) in lights.iter().zip(hidden.chunks(surfaces.len())) {
+    for (light, occluded) in lights.iter().zip(occluded.chunks(surfaces.len())) {
         let to = [light.position, light.geometric_normal];
-        for (surface, &hidden) in surfaces.iter().zip(hidden) {
+        for (surface, &occluded) in surfaces.iter().zip(occluded) {
             let expected = surface.triangle == SurfaceRecord::NO_TRIANGLE || {
                 let front = scene.geometric_normal(surface.triangle);
                 let normal = if front.dot(surface.normal) >= 0.0 { front } else { -front };
                 !bvh.sees([surface.position, normal], to)
             };
-            dark += usize::from(hidden);
-            wrong += usize::from(hidden != expected);
+            dark += usize::from(occluded);
+            wrong += usize::from(occluded != expected);
         }
     }
-    let share = |count: usize| count as f64 / hidden.len() as f64;
-    println!("{}: {} hidden, {:e} disagree", scene.name, share(dark), share(wrong));
-    assert!(share(dark) > 0.05 && share(dark) < 0.95, "a weak test: {dark} hidden");
+    let share = |count: usize| count as f64 / occluded.len() as f64;
+    println!("{}: {} occluded, {:e} disagree", scene.name, share(dark), share(wrong));
+    assert!(share(dark) > 0.05 && share(dark) < 0.95, "a weak test: {dark} occluded");
     share(wrong)
 }
 

@@ -42,7 +42,7 @@ fn a_lambertian_scene_links_no_ggx() {
 #[test]
 fn options_that_are_off_are_not_in_the_shader() {
     let plain = linked_shader(&GLOSSY, true, false, &every_setting()[0]).expect("links").wgsl;
-    for word in ["attenuation", "settings", "hidden"] {
+    for word in ["attenuation", "settings", "occluded"] {
         assert!(!plain.contains(word), "`{word}` in:\n{plain}");
     }
 }

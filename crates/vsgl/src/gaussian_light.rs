@@ -14,7 +14,7 @@ use crate::albedo::{ALBEDOS, albedos, exact_lobes};
 /// One spherical Gaussian that emits from a cloud of places, as `shaders/filter.wesl` writes it.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct Lobe {
+pub struct GaussianLobe {
     /// Mean place, metres.
     pub position: Vec3,
     /// Variance of the places along one axis, m².
@@ -32,7 +32,7 @@ pub struct Lobe {
 /// The lit texel of a group that is nearest to its mean place.
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
-struct Center {
+struct FilteredCenter {
     position: Vec3,
     padding0: f32,
     geometric_normal: Vec3,
@@ -43,9 +43,9 @@ struct Center {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussianLight {
     /// Of the Lambertian lobes.
-    pub diffuse: Lobe,
+    pub diffuse: GaussianLobe,
     /// Of the specular lobes.
-    pub specular: Lobe,
+    pub specular: GaussianLobe,
     /// The lit texel that is nearest to the mean place, metres: what shadow rays aim at, since the mean
     /// place may be inside a convex body.
     pub center: Vec3,
@@ -176,8 +176,8 @@ fn filter(
 ) -> Result<(Vec<Option<GaussianLight>>, Vec<PassTime>), Error> {
     let kinds = if materials.kinds.specular { 2 } else { 1 };
     let count = groups[0] as usize * groups[1] as usize;
-    let lobes = gpu.zeroed("lobes", (count * kinds * size_of::<Lobe>()) as u64)?;
-    let centers = gpu.zeroed("centers", (count * size_of::<Center>()) as u64)?;
+    let lobes = gpu.zeroed("lobes", (count * kinds * size_of::<GaussianLobe>()) as u64)?;
+    let centers = gpu.zeroed("centers", (count * size_of::<FilteredCenter>()) as u64)?;
     let sides = gpu.uniform("groups", &[side, 0, 0, 0])?;
     let mut bindings = vec![Binding::Uniform, Binding::Storage, Binding::Storage];
     bindings.extend([Binding::StorageMut; 2]);
@@ -188,11 +188,11 @@ fn filter(
     let resources: Vec<_> = buffers.into_iter().map(Resource::Buffer).collect();
     let pass = gpu.pass("filter", &kernel, &resources)?;
     let times = gpu.run(&[pass.over([groups[0], groups[1], 1])])?;
-    let lobes: Vec<Lobe> = gpu.read(&lobes)?;
-    let centers: Vec<Center> = gpu.read(&centers)?;
-    let light = |(group, center): (&[Lobe], &Center)| {
-        let specular = group.get(1).copied().unwrap_or_else(Lobe::zeroed);
-        let Center { position: center, geometric_normal, .. } = *center;
+    let lobes: Vec<GaussianLobe> = gpu.read(&lobes)?;
+    let centers: Vec<FilteredCenter> = gpu.read(&centers)?;
+    let light = |(group, center): (&[GaussianLobe], &FilteredCenter)| {
+        let specular = group.get(1).copied().unwrap_or_else(GaussianLobe::zeroed);
+        let FilteredCenter { position: center, geometric_normal, .. } = *center;
         let light = GaussianLight { diffuse: group[0], specular, center, geometric_normal };
         let emits = light.has_specular() || light.diffuse.power != Vec3::ZERO;
         emits.then_some(light)

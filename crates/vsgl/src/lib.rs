@@ -74,7 +74,9 @@ use gather::LAMBERT_CAPACITY;
 use gaussian_light::{Materials, lights_of_materials};
 
 pub use gather::linked_shader;
-pub use gaussian_light::{GaussianLight, Lobe, filter_group, filter_shader, gaussian_lights};
+pub use gaussian_light::{
+    GaussianLight, GaussianLobe, filter_group, filter_shader, gaussian_lights,
+};
 pub use params::{Settings, SpecularLobe};
 
 /// Pairs of light and pixel in one submission: about a second on a slow processor, far below any

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::{GaussianLight, Lobe};
+use crate::{GaussianLight, GaussianLobe};
 
 /// A light without specular power: 48 bytes.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -30,7 +30,7 @@ pub(crate) struct GlossyLight {
 }
 
 impl LambertLight {
-    fn from_lobe(lobe: &Lobe) -> Self {
+    fn from_lobe(lobe: &GaussianLobe) -> Self {
         Self {
             position: lobe.position,
             variance: lobe.variance,

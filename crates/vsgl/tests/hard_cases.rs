@@ -10,12 +10,12 @@ use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;
 use manylights_virtual_lights::LitTexel;
-use manylights_vsgl::{GaussianLight, Lobe, Settings, filter_group, gather, oracle};
+use manylights_vsgl::{GaussianLight, GaussianLobe, Settings, filter_group, gather, oracle};
 
 const CAMERA: Vec3 = Vec3::new(0.6, 1.0, -0.2);
 
-fn both(lobe: Lobe) -> GaussianLight {
-    let specular = Lobe { sharpness: 30.0 * lobe.sharpness, ..lobe };
+fn both(lobe: GaussianLobe) -> GaussianLight {
+    let specular = GaussianLobe { sharpness: 30.0 * lobe.sharpness, ..lobe };
     let (center, geometric_normal) = (lobe.position, lobe.axis);
     GaussianLight { diffuse: lobe, specular, center, geometric_normal }
 }

@@ -10,7 +10,7 @@ use manylights_gpu::{GpuFrame, SurfaceRecord};
 use manylights_scene::{Brdf, Scene};
 use manylights_virtual_lights::{LitTexel, lit_texels, scene_maps};
 use manylights_vsgl::{
-    GaussianLight, Lobe, Settings, filter_group, gather, gaussian_lights, oracle,
+    GaussianLight, GaussianLobe, Settings, filter_group, gather, gaussian_lights, oracle,
 };
 
 /// Largest difference of a pixel, relative to the picture's largest component.
@@ -64,7 +64,7 @@ fn broad_lobes() {
     for sharpness in [0.01, 0.1, 0.249, 0.251, 0.499, 0.501] {
         // The cloud is so wide that it adds 1e-6 to the sharpness.
         let diffuse = lobe(-axis, axis, sharpness, 1e6);
-        let specular = Lobe { power: Vec3::ZERO, ..diffuse };
+        let specular = GaussianLobe { power: Vec3::ZERO, ..diffuse };
         let (center, geometric_normal) = (diffuse.position, axis);
         let lights = [GaussianLight { diffuse, specular, center, geometric_normal }];
         let found = gather(&GPU, &receivers, camera, &lights, &SETTINGS).expect("a gather");
@@ -86,8 +86,8 @@ fn same_seed_same_image_and_other_seed_other_image() {
 }
 
 /// How a lobe of the adapter differs from the oracle's.
-fn difference(found: &Lobe, truth: &oracle::Lobe) -> f64 {
-    let found = oracle::Lobe::from(found);
+fn difference(found: &GaussianLobe, truth: &oracle::DGaussianLobe) -> f64 {
+    let found = oracle::DGaussianLobe::from(found);
     let extent = (truth.variance.sqrt()).max(1e-7 * truth.position.length());
     let relative = |a: f64, b: f64| if b == 0.0 { a.abs() } else { (a / b - 1.0).abs() };
     [

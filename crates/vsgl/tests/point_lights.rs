@@ -181,7 +181,8 @@ fn a_patch_against_its_point_lights() {
 fn all_power_arrives() {
     let texels = patch(0.3, 14, glossy(0.5));
     let GaussianLight { diffuse, specular, .. } = light(&texels);
-    for lobe in [diffuse, specular].map(|lobe| manylights_vsgl::oracle::Lobe::from(&lobe)) {
+    for lobe in [diffuse, specular].map(|lobe| manylights_vsgl::oracle::DGaussianLobe::from(&lobe))
+    {
         let radius = 50.0;
         let arriving = |(w, weight): ([f64; 3], f64)| {
             let (Gaussian { sharpness, log_amplitude, .. }, strength) =

@@ -198,7 +198,7 @@ fn group(pair: &Pair) -> Vec<(SurfaceRecord, LitTexel)> {
 }
 
 /// Of power, sharpness and variance.
-fn filter_errors(found: &vsgl::Lobe, truth: &vsgl::oracle::Lobe) -> [f64; 3] {
+fn filter_errors(found: &vsgl::GaussianLobe, truth: &vsgl::oracle::DGaussianLobe) -> [f64; 3] {
     let relative = |found: f32, truth: f64| (f64::from(found) - truth).abs() / truth.abs();
     let power = (found.power.as_dvec3() - truth.power).length() / truth.power.length();
     let sharpness = relative(found.sharpness, truth.sharpness);

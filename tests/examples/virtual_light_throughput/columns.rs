@@ -1,7 +1,7 @@
 //! What is measured.
 
 use manylights_gpu::{Error, Operations, Reflectances, operations};
-use manylights_hvl::{Hvl, Lobes};
+use manylights_hvl::{Hvl, LobeKinds};
 use manylights_method::Method;
 use manylights_reflectance::Form;
 use manylights_virtual_lights::VirtualLights;
@@ -101,7 +101,7 @@ fn of_vsgl(kinds: &Reflectances) -> Result<Operations, Error> {
 fn of_hvl(glossy: bool, form: Form, bands: usize) -> Result<Operations, Error> {
     let settings = manylights_hvl::Settings { form, bands, ..manylights_hvl::Settings::default() };
     // `trio` has a coloured metal.
-    let lobes = Lobes {
+    let lobes = LobeKinds {
         receivers: glossy,
         lights: glossy,
         colored: glossy,

@@ -51,12 +51,12 @@ pub(crate) fn run(arguments: &ListArguments, methods: Methods) -> Result<(), Fai
     Ok(())
 }
 
-struct Entry {
+struct Listing {
     text: String,
     json: Value,
 }
 
-fn method_entry(method: &dyn Method) -> Entry {
+fn method_entry(method: &dyn Method) -> Listing {
     let processor = match method.processor() {
         Processor::Cpu => "cpu",
         Processor::Gpu => "gpu",
@@ -75,7 +75,7 @@ fn method_entry(method: &dyn Method) -> Entry {
             baking.counters().iter().map(counter_json).collect::<Vec<_>>()
         }),
     });
-    Entry { text, json }
+    Listing { text, json }
 }
 
 fn parameter_text(info: &ParameterInfo) -> String {
@@ -118,7 +118,7 @@ fn counter_json(info: &CounterInfo) -> Value {
     json!({ "name": info.name, "help": info.help })
 }
 
-fn scenes() -> Vec<Entry> {
+fn scenes() -> Vec<Listing> {
     manylights_scene::list()
         .into_iter()
         .map(|scene| {
@@ -126,7 +126,7 @@ fn scenes() -> Vec<Entry> {
                 SceneKind::Builtin => "built-in",
                 SceneKind::File => "file",
             };
-            Entry {
+            Listing {
                 text: format!("{} ({kind}): {}", scene.name, scene.about),
                 json: json!({ "name": scene.name, "kind": kind, "about": scene.about }),
             }
@@ -134,7 +134,7 @@ fn scenes() -> Vec<Entry> {
         .collect()
 }
 
-fn experiments() -> Result<Vec<Entry>, Failure> {
+fn experiments() -> Result<Vec<Listing>, Failure> {
     let mut files: Vec<PathBuf> = Path::new(RESULTS)
         .read_dir()
         .into_iter()
@@ -147,11 +147,11 @@ fn experiments() -> Result<Vec<Entry>, Failure> {
     files.iter().map(|file| experiment_entry(file)).collect()
 }
 
-fn experiment_entry(file: &Path) -> Result<Entry, Failure> {
+fn experiment_entry(file: &Path) -> Result<Listing, Failure> {
     let name = file.display().to_string();
     let (title, scenes) =
         experiment::summary(file).map_err(|reason| Failure::input(format!("{name}: {reason}")))?;
-    Ok(Entry {
+    Ok(Listing {
         text: format!("{name}: {title} ({})", scenes.join(", ")),
         json: json!({ "file": name, "title": title, "scenes": scenes }),
     })

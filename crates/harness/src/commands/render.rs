@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use crate::commands::machine::Machine;
 use crate::error::Failure;
 use crate::measurement::bakes;
-use crate::measurement::measure::{self, Measured};
+use crate::measurement::measure::{self, MeasuredRun};
 use crate::measurement::provenance::Provenance;
 use crate::measurement::stage::{self, Stage};
 use crate::output::{self, say};
-use crate::progress::Progress;
+use crate::progress::ProgressBar;
 use crate::question::plan::no_choice;
 use crate::question::settings;
 use crate::registry::{self, Methods};
@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &RenderArguments, methods: Methods) -> Result<(), F
     let camera = arguments.camera.as_deref();
     let stage = Stage::new(&scene, camera, transport, arguments.resolution, gpu.as_ref())?;
     let frame = stage.frame(visibility, arguments.seed);
-    let mut progress = Progress::new(&format!("{} {}", scene.name, method.id()));
+    let mut progress = ProgressBar::new(&format!("{} {}", scene.name, method.id()));
     let baking = method.baking();
     let bake = baking.map(|baking| bakes::once(baking, &frame, &parameters)).transpose()?;
     let mut measured = measure::measure(
@@ -120,7 +120,7 @@ fn attributes(provenance: &Provenance) -> Vec<(String, String)> {
 }
 
 fn write(
-    measured: &Measured,
+    measured: &MeasuredRun,
     facts: &[(String, String)],
     exr: &Path,
     png: &Path,
@@ -133,7 +133,7 @@ fn write(
     measured.image.write_png(png, exposure).map_err(Failure::input)
 }
 
-fn report(measured: &Measured, exr: &Path, png: &Path) {
+fn report(measured: &MeasuredRun, exr: &Path, png: &Path) {
     let counters: Vec<_> =
         measured.counters.iter().map(|(name, n)| format!("{name} {n}")).collect();
     let bake = match measured.bake.seconds {
@@ -150,7 +150,7 @@ fn report(measured: &Measured, exr: &Path, png: &Path) {
     ));
 }
 
-fn check_finite(measured: &Measured, exr: &Path) -> Result<(), Failure> {
+fn check_finite(measured: &MeasuredRun, exr: &Path) -> Result<(), Failure> {
     match measured.image.non_finite() {
         0 => Ok(()),
         count => Err(Failure::Failed(format!(

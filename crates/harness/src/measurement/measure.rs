@@ -9,7 +9,7 @@ use manylights_metrics::RadianceImage;
 use crate::measurement::bakes::BakeCost;
 
 /// What came out of a run.
-pub(crate) struct Measured {
+pub(crate) struct MeasuredRun {
     /// The picture.
     pub(crate) image: RadianceImage,
     /// Of what it was baked from.
@@ -38,7 +38,7 @@ pub(crate) fn measure(
     parameters: &Parameters,
     bake: Option<(&dyn Bake, BakeCost)>,
     look: Look<'_>,
-) -> Result<Measured, Error> {
+) -> Result<MeasuredRun, Error> {
     let clock = Instant::now();
     let mut run = match &bake {
         Some((bake, _)) => bake.prepare(frame, parameters)?,
@@ -47,7 +47,7 @@ pub(crate) fn measure(
     let prepare_seconds = clock.elapsed().as_secs_f64();
     let step_seconds = step_to_the_end(run.as_mut(), look)?.as_secs_f64();
     let image = run.resolve()?;
-    Ok(Measured {
+    Ok(MeasuredRun {
         image,
         bake: bake.map_or_else(BakeCost::default, |(_, cost)| cost),
         prepare_seconds,

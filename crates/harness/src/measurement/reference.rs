@@ -14,7 +14,7 @@ use crate::measurement::cell::Comparison;
 use crate::measurement::measure;
 use crate::measurement::stage::Stage;
 use crate::output::say;
-use crate::progress::Progress;
+use crate::progress::ProgressBar;
 use crate::question::experiment::{Experiment, REFERENCE_SEED};
 use crate::question::plan::Variant;
 use crate::question::references::{Reference, Source};
@@ -81,7 +81,7 @@ impl SceneReference {
             samples: experiment.scale.reference_samples,
         };
         let label = format!("{} reference ({visibility}, {} spp)", scene.name, settings.samples);
-        let mut progress = Progress::new(&label);
+        let mut progress = ProgressBar::new(&label);
         let traced = path_tracer::render(scene, stage.camera, &settings, Some(cache), &mut |at| {
             progress.set(at.done, at.total);
         })
@@ -113,7 +113,8 @@ impl SceneReference {
         let Variant { method, parameters, visibility, .. } = variant;
         let scene = stage.scene;
         let seeds = &experiment.scale.seeds;
-        let mut progress = Progress::new(&format!("{} reference {}", scene.name, reference.name));
+        let mut progress =
+            ProgressBar::new(&format!("{} reference {}", scene.name, reference.name));
         let mut pictures = Vec::with_capacity(seeds.len());
         for (done, &seed) in (0..).zip(seeds) {
             progress.set(done, seeds.len() as u64);

@@ -11,7 +11,7 @@ use crate::error::Failure;
 use crate::measurement::bakes::SceneHashes;
 use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome, image_sha256};
 use crate::measurement::inputs::{self, Inputs, Seen};
-use crate::measurement::measure::Measured;
+use crate::measurement::measure::MeasuredRun;
 use crate::measurement::pictures::image_path;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::reference::SceneReference;
@@ -19,7 +19,7 @@ use crate::measurement::scene_cells::SceneCells;
 use crate::measurement::session::Session;
 use crate::measurement::stage::Stage;
 use crate::measurement::versions;
-use crate::progress::Progress;
+use crate::progress::ProgressBar;
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Turn, Variant, interleaved};
 use crate::question::references::Reference;
@@ -133,7 +133,7 @@ impl SceneRun<'_, '_> {
     /// # Errors
     /// One line where a file cannot be written. A cell that fails is recorded as such.
     pub(crate) fn turns(&mut self, turns: &[Turn]) -> Result<Vec<(Turn, Cell)>, Failure> {
-        let mut progress = Progress::new(&self.view);
+        let mut progress = ProgressBar::new(&self.view);
         let experiment = self.session.experiment;
         let mut warm = vec![false; experiment.variants.len()];
         let mut cells: Vec<(Turn, Cell)> = Vec::with_capacity(turns.len());
@@ -233,7 +233,7 @@ impl SceneRun<'_, '_> {
     fn measure_with_checkpoints(
         &mut self,
         turn: Turn,
-    ) -> Result<(Measured, Vec<Checkpoint>), Error> {
+    ) -> Result<(MeasuredRun, Vec<Checkpoint>), Error> {
         let method = self.session.experiment.variants[turn.variant].method;
         let (stage, references) = (self.stage, self.references);
         let mut checkpoints = Vec::new();
@@ -283,7 +283,7 @@ impl SceneRun<'_, '_> {
         })
     }
 
-    fn write_image(&self, measured: &Measured, key: &str) -> Result<(), Failure> {
+    fn write_image(&self, measured: &MeasuredRun, key: &str) -> Result<(), Failure> {
         let path = self.image_path(key);
         let attributes = [("manylights.cell".to_owned(), key.to_owned())];
         measured
@@ -298,7 +298,7 @@ impl SceneRun<'_, '_> {
     fn done(
         &mut self,
         turn: Turn,
-        measured: Measured,
+        measured: MeasuredRun,
         checkpoints: Vec<Checkpoint>,
     ) -> Result<Done, manylights_metrics::Error> {
         let Variant { method, parameters, visibility, .. } =

@@ -3,7 +3,7 @@
 use manylights_method::{Bake, Error, Frame, Method, Parameters};
 
 use crate::measurement::bakes::{BakeCost, Origin, Wanted};
-use crate::measurement::measure::{self, Look, Measured};
+use crate::measurement::measure::{self, Look, MeasuredRun};
 use crate::measurement::scene_run::SceneRun;
 use crate::measurement::session::Session;
 use crate::measurement::stage::Stage;
@@ -16,7 +16,7 @@ impl SceneRun<'_, '_> {
         turn: Turn,
         amount: Option<f64>,
         look: Look<'_>,
-    ) -> Result<Measured, Error> {
+    ) -> Result<MeasuredRun, Error> {
         let mut measured = self.with_bake(turn, amount, false, |method, frame, set, bake| {
             measure::measure(method, frame, set, bake, look)
         })?;

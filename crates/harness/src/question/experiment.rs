@@ -67,7 +67,7 @@ use crate::question::plan::{Budget, Variant};
 use crate::question::published::{self, Published};
 use crate::question::references::{self, Reference};
 use crate::question::settings;
-use crate::question::sweep::Entry;
+use crate::question::sweep::MethodEntry;
 use crate::registry::Methods;
 
 /// Seed of every reference. No cell may use it: its samples would agree with the reference's.
@@ -156,8 +156,8 @@ struct File {
     cameras: Vec<String>,
     transport: String,
     references: Vec<toml::Value>,
-    methods: Vec<Entry>,
-    baseline: Option<Entry>,
+    methods: Vec<MethodEntry>,
+    baseline: Option<MethodEntry>,
     #[serde(default)]
     errors: Vec<f64>,
     columns: Option<Vec<Column>>,
@@ -166,7 +166,7 @@ struct File {
     #[serde(default)]
     crops: Vec<Crop>,
     #[serde(default)]
-    published: Vec<published::Entry>,
+    published: Vec<published::PublishedEntry>,
     profiles: Profiles,
 }
 
@@ -335,7 +335,7 @@ fn times(written: &[Time]) -> Result<Vec<Budget>, String> {
 }
 
 fn baseline(
-    entry: Option<&Entry>,
+    entry: Option<&MethodEntry>,
     methods: Methods,
     variants: &[Variant],
 ) -> Result<usize, String> {

@@ -50,17 +50,17 @@ impl Quantity {
 /// `[[published]]` of an experiment file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Entry {
+pub(crate) struct PublishedEntry {
     source: String,
     scene: String,
-    method: sweep::Entry,
+    method: sweep::MethodEntry,
     /// Of errors.
     reference: Option<String>,
     /// By metric.
     values: BTreeMap<String, f64>,
 }
 
-impl Entry {
+impl PublishedEntry {
     /// Finds what the numbers are compared with.
     ///
     /// # Errors

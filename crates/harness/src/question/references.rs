@@ -47,9 +47,9 @@ impl Reference {
 /// A reference in an experiment file that is more than a visibility.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Entry {
+struct ReferenceEntry {
     name: String,
-    method: Option<sweep::Entry>,
+    method: Option<sweep::MethodEntry>,
 }
 
 /// The references of an experiment file: the names of path-traced ones, or tables of a name and, of
@@ -80,8 +80,8 @@ fn reference(
     transport: Transport,
     methods: Methods,
 ) -> Result<Reference, String> {
-    let Entry { name, method } = match value {
-        toml::Value::String(name) => Entry { name: name.clone(), method: None },
+    let ReferenceEntry { name, method } = match value {
+        toml::Value::String(name) => ReferenceEntry { name: name.clone(), method: None },
         toml::Value::Table(table) => {
             table.clone().try_into().map_err(|e: toml::de::Error| names::mended(e.message()))?
         }

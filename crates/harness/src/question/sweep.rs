@@ -11,11 +11,11 @@ use crate::registry::{self, Methods};
 /// A method of an experiment file, with one value or a list of them for each parameter.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Entry {
+pub(crate) struct MethodEntry {
     id: String,
     #[serde(default)]
     parameters: toml::Table,
-    visibility: Option<Seen>,
+    visibility: Option<Visibilities>,
     #[serde(default)]
     budget: Kind,
 }
@@ -23,7 +23,7 @@ pub(crate) struct Entry {
 /// One visibility of the last segment or several.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "visibility is \"traced\", \"ignored\" or a list of them")]
-enum Seen {
+enum Visibilities {
     One(String),
     Each(Vec<String>),
 }
@@ -54,7 +54,7 @@ impl Kind {
     }
 }
 
-impl Entry {
+impl MethodEntry {
     /// One variant for each combination of the values; where time is the budget, one for each of
     /// these and each of `times`.
     ///
@@ -108,11 +108,11 @@ impl Entry {
     fn visibilities(&self, own: Visibility) -> Result<Vec<Visibility>, String> {
         let texts = match &self.visibility {
             None => return Ok(vec![own]),
-            Some(Seen::One(text)) => std::slice::from_ref(text),
-            Some(Seen::Each(texts)) if texts.is_empty() => {
+            Some(Visibilities::One(text)) => std::slice::from_ref(text),
+            Some(Visibilities::Each(texts)) if texts.is_empty() => {
                 return Err(format!("methods: `{}` has no visibility", self.id));
             }
-            Some(Seen::Each(texts)) => texts,
+            Some(Visibilities::Each(texts)) => texts,
         };
         texts.iter().map(|text| text.parse()).collect()
     }

@@ -22,7 +22,7 @@ use crate::error::Failure;
 use crate::measurement::pictures::image_path;
 use crate::measurement::scene_cells::SceneCells;
 use crate::output::say;
-use crate::progress::Progress;
+use crate::progress::ProgressBar;
 use crate::question::experiment::{Experiment, REFERENCE_SEED};
 
 /// Writes the layers of all variants that have a picture and none yet. Direct light comes from the path tracer and
@@ -135,7 +135,7 @@ fn render_direct(
         seed: REFERENCE_SEED,
         samples: if is_exact { 1 } else { experiment.scale.reference_samples },
     };
-    let mut progress = Progress::new(&format!("{} direct light", scene.name));
+    let mut progress = ProgressBar::new(&format!("{} direct light", scene.name));
     let reference = path_tracer::render(scene, camera, &settings, Some(cache), &mut |at| {
         progress.set(at.done, at.total);
     })

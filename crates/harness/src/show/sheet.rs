@@ -23,7 +23,7 @@ use tiles::{Rectangle, Tile, compose, draw_frame};
 const MIN_TILE: u32 = 400;
 
 /// The picture of a method.
-struct Entry {
+struct MethodPicture {
     label: String,
     image: RadianceImage,
     /// RMSE of sRGB values against each reference.
@@ -70,7 +70,7 @@ fn entries(
     cells: &SceneCells,
     answer: &SceneAnswer,
     out: &Path,
-) -> Result<Vec<Entry>, Failure> {
+) -> Result<Vec<MethodPicture>, Failure> {
     let variants = &experiment.variants;
     let mut entries = Vec::new();
     for row in &answer.rows {
@@ -81,7 +81,7 @@ fn entries(
         let image = RadianceImage::read_exr(&path).map_err(Failure::input)?;
         let rmse = |reference: &SceneReference| medians.errors[&reference.name].display.rmse;
         let rmse = cells.references.iter().map(rmse).collect();
-        entries.push(Entry { label: variant.label(), image, rmse });
+        entries.push(MethodPicture { label: variant.label(), image, rmse });
     }
     Ok(entries)
 }
@@ -91,7 +91,12 @@ fn shown(image: &RadianceImage, exposure: f32) -> RgbImage {
 }
 
 /// The scale of the errors, then the methods.
-fn pictures(cells: &SceneCells, entries: &[Entry], crops: &[Rectangle], scale: f32) -> Vec<Tile> {
+fn pictures(
+    cells: &SceneCells,
+    entries: &[MethodPicture],
+    crops: &[Rectangle],
+    scale: f32,
+) -> Vec<Tile> {
     let &RadianceImage { width, height, .. } = cells.references[0].image();
     let key = Tile {
         caption: ["mean |error| of R, G, B".into(), format!("0 .. {scale} W/m2/sr")],
@@ -111,7 +116,7 @@ fn pictures(cells: &SceneCells, entries: &[Entry], crops: &[Rectangle], scale: f
 /// The same rectangle of the first reference and of all methods, as wide as a full picture.
 fn enlarged_crops(
     cells: &SceneCells,
-    entries: &[Entry],
+    entries: &[MethodPicture],
     crops: &[Rectangle],
     nth: usize,
 ) -> Vec<Tile> {
@@ -134,7 +139,7 @@ fn enlarged_crops(
 /// A reference, then the errors of the methods against it.
 fn errors(
     cells: &SceneCells,
-    entries: &[Entry],
+    entries: &[MethodPicture],
     index: usize,
     reference: &SceneReference,
     scale: f32,

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use manylights_gpu::SurfaceRecord;
-use manylights_scene::{DBrdf, Lobe as Specular};
+use manylights_scene::{DBrdf, Lobe};
 use manylights_virtual_lights::LitTexel;
 
 use super::gaussian::{blur, sharpness};
@@ -11,7 +11,7 @@ use crate::albedo::{exact_interpolated, interpolated};
 
 /// One spherical Gaussian that emits from a cloud of places.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Lobe {
+pub struct DGaussianLobe {
     /// Mean place, metres.
     pub position: DVec3,
     /// Variance of the places along one axis, m².
@@ -35,7 +35,7 @@ struct Emission {
 pub const DIFFUSE_SHARPNESS: f64 = 2.292504;
 
 /// The diffuse and the specular lobe of a group; power 0 where there is none.
-pub fn filter(texels: &[(SurfaceRecord, LitTexel)]) -> [Lobe; 2] {
+pub fn filter(texels: &[(SurfaceRecord, LitTexel)]) -> [DGaussianLobe; 2] {
     let lit = texels.iter().filter(|(_, texel)| texel.flux.max_element() > 0.0);
     [diffuse, specular].map(|emission| {
         mean(lit.clone().map(|(surface, texel)| (surface, texel, emission(surface, texel))))
@@ -44,11 +44,11 @@ pub fn filter(texels: &[(SurfaceRecord, LitTexel)]) -> [Lobe; 2] {
 
 fn mean<'a>(
     emissions: impl Iterator<Item = (&'a SurfaceRecord, &'a LitTexel, Emission)> + Clone,
-) -> Lobe {
+) -> DGaussianLobe {
     let weight = |emission: &Emission| emission.power.element_sum();
     let total: f64 = emissions.clone().map(|(_, _, emission)| weight(&emission)).sum();
     if total <= 0.0 {
-        return Lobe::default();
+        return DGaussianLobe::default();
     }
     let position = emissions
         .clone()
@@ -64,7 +64,7 @@ fn mean<'a>(
         power += emission.power;
     }
     let axis = axis / total;
-    Lobe {
+    DGaussianLobe {
         position,
         variance: 0.5 * square / total,
         axis: axis.try_normalize().unwrap_or(DVec3::Z),
@@ -78,10 +78,10 @@ fn diffuse(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     let entering = brdf.transmission(cosine(surface, texel));
     let leaving = match brdf.lobe {
         // ∫ 2c (1 − c)⁵ dc = 1/21.
-        Specular::Schlick { f90 } => {
+        Lobe::Schlick { f90 } => {
             1.0 - (brdf.f0 * (20.0 / 21.0) + f64::from(f90) / 21.0).max_element()
         }
-        Specular::Dielectric { .. } | Specular::Measured(_) => 1.0,
+        Lobe::Dielectric { .. } | Lobe::Measured(_) => 1.0,
     };
     Emission {
         power: texel.flux.as_dvec3() * brdf.diffuse * (entering * leaving),
@@ -109,15 +109,15 @@ fn specular(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     let axis = (2.0 * view_m * micro - incoming).normalize();
     let lobe = (2.0 / alpha2 - 2.0) * local.z / (4.0 * view_m);
     let reflected = match brdf.lobe {
-        Specular::Schlick { f90 } => {
+        Lobe::Schlick { f90 } => {
             let albedo = interpolated(brdf.alpha.sqrt(), view_n);
             brdf.f0 * albedo.x + DVec3::splat(f64::from(f90) * albedo.y)
         }
-        Specular::Dielectric { index } => {
+        Lobe::Dielectric { index } => {
             brdf.f0 * exact_interpolated(brdf.alpha, index.into(), view_n)
         }
         // The method declines them.
-        Specular::Measured(_) => DVec3::ZERO,
+        Lobe::Measured(_) => DVec3::ZERO,
     };
     let geometric = texel.geometric_normal.as_dvec3().normalize().dot(axis) / normal.dot(axis);
     Emission {

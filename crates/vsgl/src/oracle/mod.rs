@@ -15,10 +15,10 @@ use crate::{GaussianLight, Settings, SpecularLobe};
 use gaussian::{Gaussian, SHARPEST, clamped_cosine, integral};
 use reflection::{Reflection, anisotropic, filtered};
 
-pub use filter::{DIFFUSE_SHARPNESS, Lobe, albedo, exact_albedo, filter};
+pub use filter::{DGaussianLobe, DIFFUSE_SHARPNESS, albedo, exact_albedo, filter};
 
-impl From<&crate::Lobe> for Lobe {
-    fn from(lobe: &crate::Lobe) -> Self {
+impl From<&crate::GaussianLobe> for DGaussianLobe {
+    fn from(lobe: &crate::GaussianLobe) -> Self {
         Self {
             position: lobe.position.as_dvec3(),
             variance: lobe.variance.into(),
@@ -29,7 +29,7 @@ impl From<&crate::Lobe> for Lobe {
     }
 }
 
-impl Lobe {
+impl DGaussianLobe {
     /// The radiance that arrives at a place, as a Gaussian of directions towards the light, and its
     /// factor in W·m⁻²·sr⁻¹.
     pub fn incident(&self, place: DVec3) -> (Gaussian, DVec3) {
@@ -89,7 +89,7 @@ impl Receiver {
     }
 
     /// Radiance that one lobe of a light causes.
-    pub fn reflect(&self, lobe: &Lobe, by: SpecularLobe) -> DVec3 {
+    pub fn reflect(&self, lobe: &DGaussianLobe, by: SpecularLobe) -> DVec3 {
         let (light, strength) = lobe.incident(self.position);
         let axis = self.frame.transpose() * light.axis;
         strength * light.log_amplitude.exp() * self.response(axis, light.sharpness, by)

@@ -13,7 +13,9 @@ use manylights_scene::presets::PRESETS;
 use manylights_scene::{Brdf, Scene};
 use manylights_scene::{Transport, Visibility};
 use manylights_virtual_lights::{LitTexel, VirtualLights};
-use manylights_vsgl::{GaussianLight, Lobe, Settings, SpecularLobe, Vsgl, gaussian_lights, oracle};
+use manylights_vsgl::{
+    GaussianLight, GaussianLobe, Settings, SpecularLobe, Vsgl, gaussian_lights, oracle,
+};
 
 pub(crate) static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
@@ -139,8 +141,15 @@ pub(crate) fn empty() -> (SurfaceRecord, LitTexel) {
     nothing
 }
 
-pub(crate) fn lobe(position: Vec3, axis: Vec3, sharpness: f32, variance: f32) -> Lobe {
-    Lobe { position, variance, axis: axis.normalize(), sharpness, power: Vec3::ONE, padding: 0.0 }
+pub(crate) fn lobe(position: Vec3, axis: Vec3, sharpness: f32, variance: f32) -> GaussianLobe {
+    GaussianLobe {
+        position,
+        variance,
+        axis: axis.normalize(),
+        sharpness,
+        power: Vec3::ONE,
+        padding: 0.0,
+    }
 }
 
 /// Directions and weights times a Gaussian of amplitude 1 about `axis`.
