@@ -1,5 +1,4 @@
 //! `scripts/splice` keeps the numbers of the documents those of the results.
-#![cfg(unix)] // it is a bash script
 
 use std::fs;
 use std::path::Path;

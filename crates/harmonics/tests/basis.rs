@@ -1,7 +1,6 @@
 //! The basis is orthonormal, and Parseval's identity holds.
 
-mod common;
-
+use crate::common;
 use manylights_harmonics::{Basis, MAX_BANDS, count, index, quadrature};
 use proptest::prelude::*;
 

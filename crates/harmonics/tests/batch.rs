@@ -1,8 +1,6 @@
 //! Batches against directions one by one, and long ones against short ones.
 
-mod common;
-
-use common::{evaluate, limits};
+use crate::common::{evaluate, limits};
 use manylights_harmonics::batch::{gradients_length, lanes, values_length};
 use manylights_harmonics::{Basis, MAX_BANDS, Real, Vectors, count};
 

@@ -1,8 +1,7 @@
 //! The weakest window that stops the ringing, on profiles and on the sphere.
 
-mod common;
-
-use common::{coefficients, turn};
+use crate::common;
+use crate::common::{coefficients, turn};
 use manylights_harmonics::convolution::convolve;
 use manylights_harmonics::dering::{Profile, Sphere};
 use manylights_harmonics::rotation::Blocks;

@@ -1,8 +1,6 @@
 //! Values and gradients against truth: derivatives, addition theorem, poles.
 
-mod common;
-
-use common::{evaluate, limits};
+use crate::common::{evaluate, limits};
 use manylights_harmonics::{Basis, MAX_BANDS, count, index};
 use proptest::prelude::*;
 

@@ -1,10 +1,8 @@
 //! Hemispherical harmonics against quadrature and against their definition.
 
-mod hemisphere;
-
 use std::f64::consts::TAU;
 
-use hemisphere::{above, expand, graded, project, pseudo_random};
+use crate::hemisphere::{above, expand, graded, project, pseudo_random};
 use manylights_harmonics::hemispherical::{HemisphericalBasis, Transfer};
 use manylights_harmonics::projection::scalar_product;
 use manylights_harmonics::quadrature::sphere_nodes;

@@ -1,8 +1,7 @@
 //! Gradients of the coefficients of a light as the point moves: against differences, and in f32.
 
-mod common;
-
-use common::derivative;
+use crate::common;
+use crate::common::derivative;
 use manylights_harmonics::zonal::{self, Sighting};
 use manylights_harmonics::{Basis, MAX_BANDS, Real, count};
 

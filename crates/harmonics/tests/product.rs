@@ -1,8 +1,7 @@
 //! Products of functions against quadrature of the functions themselves.
 
-mod common;
-
-use common::{coefficients, difference, dot, turn};
+use crate::common;
+use crate::common::{coefficients, difference, dot, turn};
 use manylights_harmonics::clamped_cosine::{self, Folded, Local};
 use manylights_harmonics::product::{self, Product};
 use manylights_harmonics::rotation::Zxzxz;

@@ -1,8 +1,7 @@
 //! Rotations turn functions, keep their norms, and agree with each other.
 
-mod common;
-
-use common::{coefficients, difference, dot, largest, rotation, turn};
+use crate::common;
+use crate::common::{coefficients, difference, dot, largest, rotation, turn};
 use manylights_harmonics::rotation::{Blocks, Matrix, Zxzxz, rotate_z};
 use manylights_harmonics::{Basis, MAX_BANDS, Real, count};
 use proptest::prelude::*;

@@ -1,11 +1,9 @@
 //! Tilts of hemispherical harmonics against projections of turned functions.
 
-mod common;
-mod hemisphere;
-
+use crate::common;
 use std::f64::consts::FRAC_PI_2;
 
-use hemisphere::{above, expand, project, pseudo_random};
+use crate::hemisphere::{above, expand, project, pseudo_random};
 use manylights_harmonics::hemispherical::{HemisphericalBasis, Overlap, TiltTable};
 use manylights_harmonics::quadrature::gauss_legendre;
 use manylights_harmonics::{Basis, Real, count, index};

@@ -1,19 +1,16 @@
 //! The generated WGSL, run on the CPU in f32, against f64. The adapter's own run is in the
 //! workspace's tests.
 
-mod straight_line;
-mod unit;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::straight_line::{Numbers, run};
+use crate::unit::{normalised, unit};
 use manylights_harmonics::projection::fibonacci;
 use manylights_harmonics::quadrature::gauss_legendre;
 use manylights_harmonics::wgsl::{Function, module};
 use manylights_harmonics::zonal::{Cap, cap_rate_stable, cap_stable};
 use manylights_harmonics::{Basis, MAX_BANDS, count, even_index, index};
 use proptest::prelude::*;
-use straight_line::{Numbers, run};
-use unit::{normalised, unit};
 
 /// The poles, the axes, both with one small component, and some directions between.
 fn directions() -> Vec<[f32; 3]> {

@@ -1,8 +1,7 @@
 //! Zonal functions against quadrature and differences, in f64.
 
-mod common;
-
-use common::{derivative, difference, dot, turn};
+use crate::common;
+use crate::common::{derivative, difference, dot, turn};
 use manylights_harmonics::zonal::{self, Cap, Sighting};
 use manylights_harmonics::{Basis, MAX_BANDS, count, index, quadrature};
 use proptest::prelude::*;

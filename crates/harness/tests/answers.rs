@@ -1,11 +1,9 @@
 //! Answers do not depend on the way to them: `report` and `merge` give what `run` gave, and a run what
 //! another one gives, whatever caches hold.
 
-mod common;
-
 use std::path::Path;
 
-use common::{manylights, refused, succeeded};
+use crate::common::{manylights, refused, succeeded};
 
 const EXPERIMENT: &str = r#"
 title = "Test"

@@ -1,10 +1,8 @@
 //! The bench: time budgets, jobs for other machines, regression check, exports.
 
-mod common;
-
 use std::collections::BTreeSet;
 
-use common::{json, manylights, manylights_on, refused, spawn, succeeded};
+use crate::common::{json, manylights, manylights_on, refused, spawn, succeeded};
 use serde_json::Value;
 
 const EXPERIMENT: &str = r#"

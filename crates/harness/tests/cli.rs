@@ -1,11 +1,9 @@
 //! The command line as a user meets it: bad input ends in exit status 2 and one line, never in a
 //! panic; good input gives the promised files.
 
-mod common;
-
 use std::path::Path;
 
-use common::{json, manylights, manylights_within, refused, succeeded, write_image};
+use crate::common::{json, manylights, manylights_within, refused, succeeded, write_image};
 use manylights_metrics::RadianceImage;
 
 #[test]

@@ -1,11 +1,10 @@
 //! Whoever reads what the program says may stop: `manylights run … 2>&1 | head -1`.
 
-mod common;
-
+use crate::common;
 use std::path::Path;
 use std::process::Command;
 
-use common::{command, succeeded};
+use crate::common::{command, succeeded};
 
 const EXPERIMENT: &str = r#"
 title = "Test"

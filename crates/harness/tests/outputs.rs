@@ -1,10 +1,8 @@
 //! What is written never replaces what it is made from.
 
-mod common;
-
 use std::path::{Path, PathBuf};
 
-use common::{manylights, succeeded};
+use crate::common::{manylights, succeeded};
 use serde_json::json;
 use tempfile::TempDir;
 

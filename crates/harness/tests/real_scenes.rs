@@ -1,8 +1,6 @@
 //! `render` and `run` on scenes that come from elsewhere; see README.md, Scenes.
 
-mod common;
-
-use common::{json, manylights, succeeded};
+use crate::common::{json, manylights, succeeded};
 use manylights_metrics::RadianceImage;
 
 const SCENES: [&str; 3] = ["sponza", "breakfast-room", "sibenik"];

@@ -1,10 +1,8 @@
 //! References that are pictures of another method, and direct light that all pictures share.
 
-mod common;
-
 use std::path::Path;
 
-use common::{manylights, refused, succeeded};
+use crate::common::{manylights, refused, succeeded};
 use manylights_metrics::RadianceImage;
 use serde_json::Value;
 

@@ -4,14 +4,12 @@
 //! in `MANYLIGHTS_BROWSER`, without which the test that needs it only says so. Where the variable is
 //! set, a browser that does not start fails the test.
 
-mod common;
-
 use std::path::Path;
 use std::process::Command;
 
+use crate::common::{json, manylights, refused, succeeded};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use common::{json, manylights, refused, succeeded};
 use half::f16;
 use manylights_metrics::RadianceImage;
 use serde_json::Value;

@@ -1,11 +1,9 @@
 //! `manylights run`: what it writes, and how it goes on after an interruption.
 
-mod common;
-
 use std::path::Path;
 use std::process::Output;
 
-use common::{manylights, refused, succeeded};
+use crate::common::{manylights, refused, succeeded};
 use manylights_metrics::{RadianceImage, compare_display, compare_linear};
 
 const EXPERIMENT: &str = r#"

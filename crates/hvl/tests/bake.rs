@@ -1,8 +1,6 @@
 //! Tables of reflectances are a bake, which nothing that was made before makes cheaper.
 
-mod common;
-
-use common::GPU;
+use crate::common::GPU;
 use manylights_gpu::GpuFrame;
 use manylights_hvl::Hvl;
 use manylights_method::{Frame, Method, Parameters};

@@ -1,8 +1,6 @@
 //! The adapter's gather against the f64 oracle.
 
-mod common;
-
-use common::{
+use crate::common::{
     FORMS, GPU, SETTINGS, dielectric, glossy, light, metal, oblique, render, surface, worst,
 };
 use glam::Vec3;

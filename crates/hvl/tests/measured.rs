@@ -1,12 +1,7 @@
 //! Measured reflectances: their tables against quadrature, the adapter against the oracle.
 
-mod common;
-
-#[path = "../../scene/tests/common/tensor.rs"]
-#[allow(dead_code, reason = "other tests use the rest")]
-mod tensor;
-
-use common::{GPU, SETTINGS, dielectric, glossy, light, oblique, surface, worst};
+use crate::common::{GPU, SETTINGS, dielectric, glossy, light, oblique, surface, worst};
+use crate::tensor;
 use glam::{DVec3, Vec3};
 use manylights_gpu::{GpuFrame, SurfaceRecord};
 use manylights_harmonics::quadrature::sphere;

@@ -1,8 +1,6 @@
 //! What the linked WGSL holds.
 
-mod common;
-
-use common::{FORMS, GPU, SETTINGS};
+use crate::common::{FORMS, GPU, SETTINGS};
 use manylights_hvl::{Horizon, LobeKinds, Settings, linked_shader};
 use manylights_reflectance::Form;
 

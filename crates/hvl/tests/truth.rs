@@ -1,8 +1,6 @@
 //! The limits that the estimator must have: the integral over the sphere, point lights.
 
-mod common;
-
-use common::{FORMS, SETTINGS, dielectric, glossy, light, surface};
+use crate::common::{FORMS, SETTINGS, dielectric, glossy, light, surface};
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::zonal::Cap;

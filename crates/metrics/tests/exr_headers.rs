@@ -1,11 +1,9 @@
 //! Where pixels lie and what their numbers mean: what the headers of OpenEXR say of it.
 
-mod common;
-
 use std::path::Path;
 
-use common::exr_files::{SIZE, folder, layer, message};
-use common::gradient;
+use crate::common::exr_files::{SIZE, folder, layer, message};
+use crate::common::gradient;
 use exr::meta::attribute::{Chromaticities, IntegerBounds};
 use exr::prelude::{Encoding, Image, Vec2, WritableImage};
 use manylights_metrics::{RadianceImage, read_exr_pair};

@@ -1,12 +1,10 @@
 //! Pictures on disk: round trips, and files that somebody damaged.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use common::exr_files::{SIZE, encoding, folder, layer, message};
-use common::{gradient, map, next, noise};
+use crate::common::exr_files::{SIZE, encoding, folder, layer, message};
+use crate::common::{gradient, map, next, noise};
 use exr::prelude::{Blocks, Compression, Encoding, Image, Vec2, WritableImage, f16};
 use manylights_metrics::{Error, RadianceImage, write_exr_layers};
 

@@ -1,10 +1,8 @@
 //! Every metric against numpy and scikit-image; `scripts/metrics-fixtures` made the expected values.
 
-mod common;
-
 use std::collections::BTreeMap;
 
-use common::{combine, gradient, map, noise, picture};
+use crate::common::{combine, gradient, map, noise, picture};
 use manylights_metrics::{METRICS, RadianceImage, compare_display, compare_linear};
 use serde_json::Value;
 

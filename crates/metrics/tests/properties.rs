@@ -1,8 +1,6 @@
 //! What must hold of the metrics for any pictures.
 
-mod common;
-
-use common::{combine, map, noise, picture};
+use crate::common::{combine, map, noise, picture};
 use manylights_metrics::{Error, Errors, METRICS, RadianceImage, compare, compare_display};
 use manylights_metrics::{compare_linear, false_color};
 use proptest::prelude::*;

@@ -1,5 +1,6 @@
 //! Same seed, same picture, bit for bit; loud ends.
 
+use crate::tensor;
 use glam::Vec3;
 use manylights_method::{Frame, Method, Parameters, Processor};
 use manylights_path_tracer::{Error, PathTracer, Reference, SLICE, Settings, render};
@@ -7,9 +8,6 @@ use manylights_scene::content_hash;
 use manylights_scene::presets::PRESETS;
 use manylights_scene::{Brdf, Light, Measured, Scene, load};
 use manylights_scene::{Transport, Visibility};
-
-#[path = "../../scene/tests/common/tensor.rs"]
-mod tensor;
 
 fn settings(transport: &str, seed: u64) -> Settings {
     let transport = transport.parse().expect("a transport");

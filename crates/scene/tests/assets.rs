@@ -1,7 +1,6 @@
 //! Real files: those that other loaders trip over, and the scenes of the papers.
 
-mod common;
-
+use crate::common;
 use std::path::{Path, PathBuf};
 
 use glam::{Vec3, vec3};

@@ -1,7 +1,6 @@
 //! The scenes that are made by code.
 
-mod common;
-
+use crate::common;
 use std::collections::HashMap;
 use std::f32::consts::PI;
 

@@ -1,8 +1,6 @@
 //! What import makes of valid files, against values worked out by hand.
 
-mod common;
-
-use common::triangle::{accessor, attribute, floats, load_with, noted, two_texels};
+use crate::common::triangle::{accessor, attribute, floats, load_with, noted, two_texels};
 use glam::{Vec2, Vec3, vec2, vec3};
 use serde_json::json;
 

@@ -1,9 +1,9 @@
 //! What import leaves out, changes or makes up is said: a valid file whose picture differs from what the
 //! specification asks for has a note.
 
-mod common;
-
-use common::triangle::{accessor, attribute, floats, load_with, noted, triangle, two_texels};
+use crate::common::triangle::{
+    accessor, attribute, floats, load_with, noted, triangle, two_texels,
+};
 use manylights_scene::{Scene, load};
 use serde_json::{Value, json};
 

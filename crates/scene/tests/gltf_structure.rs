@@ -1,11 +1,10 @@
 //! glTF files that are broken or out to do harm in their structure, written into a temporary folder: each is
 //! refused with one line, or loaded without what is wrong with it. None panics.
 
-mod common;
-
+use crate::common;
 use std::path::Path;
 
-use common::triangle::{data_uri, load_bytes, load_json, noted, refused, triangle};
+use crate::common::triangle::{data_uri, load_bytes, load_json, noted, refused, triangle};
 use manylights_scene::load;
 use serde_json::{Value, json};
 

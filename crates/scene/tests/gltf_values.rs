@@ -1,11 +1,10 @@
 //! glTF files that are broken or out to do harm in their values, written into a temporary folder: each is
 //! refused with one line, or loaded without what is wrong with it. None panics.
 
-mod common;
-
+use crate::common;
+use crate::common::triangle::{data_uri, load_json, noted, refused, triangle, triangle_with};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use common::triangle::{data_uri, load_json, noted, refused, triangle, triangle_with};
 use manylights_scene::load;
 use serde_json::{Value, json};
 

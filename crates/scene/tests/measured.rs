@@ -1,10 +1,8 @@
 //! Measured reflectances: against closed forms on written files, against the networks that Sztrajman et
 //! al. 2021 fitted to the same measurements, and how broken files are refused.
 
-mod common;
-#[path = "common/tensor.rs"]
-mod tensor;
-
+use crate::common;
+use crate::tensor;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
 

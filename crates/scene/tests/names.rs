@@ -1,5 +1,6 @@
 //! Scenes by name. Alone in its binary: the test changes the current directory.
 
+#[allow(dead_code, reason = "the rest is of the other tests")]
 mod common;
 
 use manylights_scene::builtin::BUILTINS;

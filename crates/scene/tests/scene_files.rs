@@ -1,9 +1,7 @@
 //! Scene files: what they add, and how wrong ones are refused.
 
-mod common;
-#[path = "common/tensor.rs"]
-mod tensor;
-
+use crate::common;
+use crate::tensor;
 use std::path::PathBuf;
 
 use glam::{Vec3, vec3};

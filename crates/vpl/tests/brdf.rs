@@ -1,5 +1,6 @@
 //! The reflectance in WGSL against the one in f64, through the gather itself.
 
+use crate::tensor;
 use std::sync::LazyLock;
 
 use glam::{DVec3, Vec3};
@@ -8,9 +9,6 @@ use manylights_scene::{Brdf, Lobe, Measured};
 use manylights_virtual_lights::VirtualLight;
 use manylights_vpl::{Settings, gather, oracle};
 use proptest::prelude::*;
-
-#[path = "../../scene/tests/common/tensor.rs"]
-mod tensor;
 
 static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));

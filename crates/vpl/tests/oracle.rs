@@ -1,8 +1,7 @@
 //! The adapter's gather against the f64 oracle.
 
-mod common;
-
-use common::{Picture, render};
+use crate::common;
+use crate::common::{Picture, render};
 use manylights_vpl::Settings;
 
 const PLAIN: Settings = Settings { lights: 256, clamp: None, attenuation_radius: None };

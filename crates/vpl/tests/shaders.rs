@@ -1,11 +1,9 @@
 //! What the linked WGSL holds.
 
+use crate::tensor;
 use manylights_gpu::{Gpu, Reflectances};
 use manylights_scene::Measured;
 use manylights_vpl::{Settings, linked_shader};
-
-#[path = "../../scene/tests/common/tensor.rs"]
-mod tensor;
 
 const LAMBERT: Reflectances =
     Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };

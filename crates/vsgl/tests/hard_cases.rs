@@ -1,11 +1,11 @@
 //! No energy jumps, nothing non-finite: groups that are empty, tiny or far away, receivers inside the
 //! cloud of texels, lobes of all widths.
 
-mod common;
-
 use std::f32::consts::FRAC_PI_2;
 
-use common::{FITTED, GPU, LOBES, SETTINGS, empty, glossy, lobe, preset, render, surface, texel};
+use crate::common::{
+    FITTED, GPU, LOBES, SETTINGS, empty, glossy, lobe, preset, render, surface, texel,
+};
 use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;

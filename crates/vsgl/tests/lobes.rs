@@ -1,10 +1,8 @@
 //! The GGX lobes of receivers and texels against quadrature.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{FITTED, at, preset, weighted};
+use crate::common::{FITTED, at, preset, weighted};
 use glam::{DVec2, DVec3};
 use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_scene::DBrdf;

@@ -1,8 +1,6 @@
 //! The adapter's filter and gather against the f64 oracle.
 
-mod common;
-
-use common::{
+use crate::common::{
     GPU, LOBES, Picture, SETTINGS, fitted, glossy, lobe, render, render_scene, surface, texel,
 };
 use glam::Vec3;

@@ -1,10 +1,8 @@
 //! Lights against the point lights that they stand for: power, distance, extent.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{FITTED, GPU, SETTINGS, glossy, preset, surface, texel};
+use crate::common::{FITTED, GPU, SETTINGS, glossy, preset, surface, texel};
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::quadrature::sphere_nodes;

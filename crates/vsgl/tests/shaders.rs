@@ -1,8 +1,6 @@
 //! What the linked WGSL holds.
 
-mod common;
-
-use common::{GPU, LOBES, SETTINGS};
+use crate::common::{GPU, LOBES, SETTINGS};
 use manylights_gpu::{Binding, Reflectances};
 use manylights_vsgl::{Settings, filter_shader, linked_shader};
 

@@ -1,10 +1,8 @@
 //! The closed forms of the oracle against quadrature.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{at, weighted};
+use crate::common::{at, weighted};
 use glam::DVec3;
 use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_vsgl::oracle::DIFFUSE_SHARPNESS;

@@ -1,10 +1,8 @@
 //! No energy jumps, nothing non-finite: where spheres touch, swallow or shrink.
 
-mod common;
-
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 
-use common::{GPU, SETTINGS, glossy, light, render};
+use crate::common::{GPU, SETTINGS, glossy, light, render};
 use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;

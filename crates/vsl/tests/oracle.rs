@@ -1,10 +1,7 @@
 //! The adapter's gather against the f64 oracle, with the same samples.
 
-mod common;
-#[path = "../../scene/tests/common/tensor.rs"]
-mod tensor;
-
-use common::{GPU, Picture, SETTINGS, glossy, light, render};
+use crate::common::{GPU, Picture, SETTINGS, glossy, light, render};
+use crate::tensor;
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_virtual_lights::RadiusRule;

@@ -1,14 +1,12 @@
 //! What the linked WGSL holds.
 
+use crate::tensor;
 use manylights_gpu::{Gpu, Reflectances};
 use manylights_scene::Measured;
 use manylights_virtual_lights::RadiusRule;
 use manylights_vsl::{Sampling, Settings, linked_shader};
 
 const SAMPLINGS: [Sampling; 3] = [Sampling::Brdf, Sampling::Cone, Sampling::Both];
-
-#[path = "../../scene/tests/common/tensor.rs"]
-mod tensor;
 
 const LAMBERT: Reflectances =
     Reflectances { specular: false, exact_fresnel: false, measured: Vec::new() };

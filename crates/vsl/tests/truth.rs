@@ -1,10 +1,8 @@
 //! The estimator against f64 quadrature over the cone, and against point lights where it shrinks.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{GPU, SETTINGS, glossy, light, render};
+use crate::common::{GPU, SETTINGS, glossy, light, render};
 use glam::{DVec2, DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;

@@ -1,5 +1,4 @@
 //! What several test files share.
-#![allow(dead_code, reason = "each test file uses a part")]
 
 use manylights_harmonics::rotation::Matrix;
 use manylights_harmonics::{Basis, Real, count};

@@ -1,5 +1,4 @@
 //! Quadrature over the hemisphere, for tests of hemispherical harmonics.
-#![allow(dead_code, reason = "each test file uses a part")]
 
 use std::f64::consts::TAU;
 

@@ -1,5 +1,4 @@
 //! Running the program.
-#![allow(dead_code, reason = "each test binary uses a part")]
 
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};

@@ -1,5 +1,4 @@
 //! Single surfaces and lights; pictures on the adapter and with the oracle.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use std::sync::LazyLock;
 

@@ -1,8 +1,6 @@
 //! The small pictures that `scripts/metrics-fixtures` makes too, by the same formulas. Every value is
 //! a small integer over a power of two, so that f32 and Python agree on it exactly.
 
-#![allow(dead_code, reason = "each test file uses some of them")]
-
 pub(crate) mod exr_files;
 
 use manylights_metrics::RadianceImage;

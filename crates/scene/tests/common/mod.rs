@@ -1,6 +1,5 @@
 //! What several test files share.
 
-#[allow(dead_code, reason = "not every test binary uses each helper")]
 pub(crate) mod triangle;
 
 use std::path::PathBuf;
@@ -8,7 +7,6 @@ use std::path::PathBuf;
 use manylights_scene::{LoadError, Scene};
 
 /// The folder of real scenes.
-#[allow(dead_code, reason = "not every test binary uses each helper")]
 pub(crate) fn assets() -> PathBuf {
     let folder = std::env::var_os("MANYLIGHTS_ASSETS")
         .expect("set MANYLIGHTS_ASSETS to the folder with the shared assets");
@@ -16,7 +14,6 @@ pub(crate) fn assets() -> PathBuf {
 }
 
 /// What every loaded scene promises to renderers.
-#[allow(dead_code, reason = "not every test binary uses each helper")]
 pub(crate) fn check_invariants(scene: &Scene, what: &str) {
     for vertex in &scene.vertices {
         assert!(vertex.position.is_finite() && vertex.uv.is_finite(), "{what}: {vertex:?}");
@@ -42,7 +39,6 @@ pub(crate) fn check_invariants(scene: &Scene, what: &str) {
 }
 
 /// One line of the form `place: problem; remedy`.
-#[allow(dead_code, reason = "not every test binary uses each helper")]
 pub(crate) fn check_line(error: &LoadError) -> String {
     let line = error.to_string();
     assert!(!line.chars().any(char::is_control), "more than a line: {line:?}");

@@ -1,5 +1,4 @@
 //! Renders a built-in scene on the adapter and with the oracle; single surfaces, texels and lobes.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use std::sync::LazyLock;
 
@@ -26,8 +25,6 @@ pub(crate) const LOBES: [SpecularLobe; 2] = [SpecularLobe::Anisotropic, Specular
 
 pub(crate) struct Picture {
     pub(crate) image: RadianceImage,
-    pub(crate) surfaces: Vec<SurfaceRecord>,
-    pub(crate) eye: DVec3,
     pub(crate) lights: Vec<GaussianLight>,
     pub(crate) oracle: Vec<DVec3>,
 }
@@ -82,7 +79,7 @@ pub(crate) fn render_scene(
     let eye = camera.position.as_dvec3();
     let oracle =
         surfaces.iter().map(|surface| oracle::radiance(surface, eye, &lights, settings)).collect();
-    Picture { image, surfaces, eye, lights, oracle }
+    Picture { image, lights, oracle }
 }
 
 fn parameters(settings: &Settings) -> Parameters {

@@ -1,5 +1,4 @@
 //! Renders a built-in scene on the adapter and with the oracle; single surfaces and lights.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use std::sync::LazyLock;
 

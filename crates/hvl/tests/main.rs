@@ -1,0 +1,14 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod bake;
+mod common;
+mod gather;
+mod hard_cases;
+mod horizon_and_rounding;
+mod measured;
+mod shaders;
+mod tables;
+mod truth;
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;

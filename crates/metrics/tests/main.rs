@@ -1,0 +1,7 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod common;
+mod exr_headers;
+mod files;
+mod fixtures;
+mod properties;

@@ -1,0 +1,11 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod area_oracle;
+mod cache;
+mod determinism;
+mod emitters;
+mod integrating_sphere;
+mod transports;
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;

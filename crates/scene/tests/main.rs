@@ -1,0 +1,19 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod assets;
+mod brdf;
+mod builtins;
+mod bvh;
+mod common;
+mod gltf_import;
+mod gltf_notes;
+mod gltf_structure;
+mod gltf_values;
+mod lights;
+mod measured;
+mod scene_files;
+mod texture;
+mod watertight;
+
+#[path = "common/tensor.rs"]
+mod tensor;

@@ -1,0 +1,6 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod lit_texels;
+mod radius;
+mod rsm;
+mod shadows;

@@ -1,0 +1,9 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod common;
+mod hard_cases;
+mod lobes;
+mod oracle;
+mod point_lights;
+mod shaders;
+mod truth;
