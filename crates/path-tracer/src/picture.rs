@@ -177,6 +177,11 @@ fn check(scene: &Scene, transport: Transport, [width, height]: [u32; 2]) -> Resu
                 "transport {transport} with ignored visibility: only indirect-1 can ignore it"
             )))
         }
+        Transport::Direct { .. } => Ok(()),
+        _ if !scene.area_lights.is_empty() => Err(Error::Settings(format!(
+            "transport {transport}: the scene has lights that are no surfaces of it, which shine \
+             in transport direct alone"
+        ))),
         Transport::DirectAndIndirect { .. } if scene.emissive_triangles().next().is_some() => {
             Err(Error::Settings(format!(
                 "transport {transport} holds the exact direct light of point-like lights, and this \

@@ -2,36 +2,53 @@
 
 use sha2::{Digest, Sha256};
 
-use crate::{Brdf, Camera, Light, Lobe, Material, Scene};
+use crate::{AreaLight, Brdf, Camera, Light, Lobe, Material, Scene};
 
 /// Hash of everything in a scene and camera that a picture depends on, as 64 hexadecimal digits:
-/// triangles, materials, textures, lights, camera; not names, notes or exposure.
+/// triangles, materials, textures, lights of all kinds, camera; not names, notes or exposure.
 pub fn content_hash(scene: &Scene, camera: &Camera) -> String {
     content_digest(scene, camera).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// [`content_hash`] as bytes.
 pub fn content_digest(scene: &Scene, camera: &Camera) -> [u8; 32] {
+    // Every field by name, so that a new one cannot be forgotten here.
+    let Scene {
+        name: _,
+        vertices,
+        triangles,
+        materials,
+        textures,
+        lights,
+        area_lights,
+        cameras: _, // the one that looks is hashed
+        exposure: _,
+        notes: _,
+        sources: _,
+    } = scene;
     let mut hasher = Sha256::new();
     let mut part = |bytes: &[u8]| {
         hasher.update((bytes.len() as u64).to_le_bytes());
         hasher.update(bytes);
     };
-    part(bytemuck::cast_slice(&scene.vertices));
-    part(bytemuck::cast_slice(&scene.triangles));
-    for material in &scene.materials {
+    part(bytemuck::cast_slice(vertices));
+    part(bytemuck::cast_slice(triangles));
+    for material in materials {
         part(material_text(material).as_bytes());
         if let Some(Brdf { lobe: Lobe::Measured(measured), .. }) = material.given {
             part(bytemuck::cast_slice(&measured.words()));
         }
     }
-    for texture in &scene.textures {
+    for texture in textures {
         part(&texture.width.to_le_bytes());
         part(&texture.height.to_le_bytes());
         part(bytemuck::cast_slice(&texture.texels));
     }
-    for light in &scene.lights {
+    for light in lights {
         part(light_text(light).as_bytes());
+    }
+    for light in area_lights {
+        part(area_light_text(light).as_bytes());
     }
     part(camera_text(camera).as_bytes());
     hasher.finalize().into()
@@ -64,6 +81,10 @@ fn material_text(material: &Material) -> String {
 }
 
 fn light_text(light: &Light) -> String {
+    format!("{light:?}")
+}
+
+fn area_light_text(light: &AreaLight) -> String {
     format!("{light:?}")
 }
 

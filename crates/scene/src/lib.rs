@@ -1,11 +1,12 @@
 //! Scenes as every method here sees them: indexed triangles with Lambert + isotropic GGX materials,
-//! point-like primary lights, emissive triangles, cameras.
+//! point-like primary lights, lights with a surface, cameras.
 //!
 //! Units: lengths in metres, radiance in W·m⁻²·sr⁻¹ (linear Rec. 709), point lights by radiant
 //! intensity in W·sr⁻¹, directional lights by irradiance on a facing plane in W·m⁻². The photometric
 //! numbers of `KHR_lights_punctual` (candela, lux) are taken as these radiometric ones unchanged.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
+mod area_light;
 pub mod brdf;
 pub mod builtin;
 pub mod bvh;
@@ -25,6 +26,7 @@ mod scene_file;
 pub mod surface;
 mod transport;
 
+pub use area_light::AreaLight;
 pub use brdf::{Brdf, DBrdf};
 pub use camera::Camera;
 pub use content::{content_digest, content_hash};

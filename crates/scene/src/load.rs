@@ -42,7 +42,7 @@ pub struct SceneEntry {
 /// One line that says what is wrong, where, and how to mend it.
 pub fn load(what: &str, assets: Option<&Path>) -> Result<Scene, LoadError> {
     let mut scene = find(what, assets)?;
-    if scene.lights.is_empty() && scene.emissive_triangles().next().is_none() {
+    if scene.lights.is_empty() && scene.all_area_lights().next().is_none() {
         scene.notes.push("no light: every picture is black".to_owned());
     }
     let is_mirror = |material: &&Material| {

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
-use crate::{Camera, Light, LoadError, Material, SurfacePoint, Texture};
+use crate::{AreaLight, Camera, Light, LoadError, Material, SurfacePoint, Texture};
 
 /// A vertex; the same 32 bytes go to the GPU.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -42,6 +42,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Point-like primary lights. Emissive triangles are found through their materials.
     pub lights: Vec<Light>,
+    /// Lights with a surface that is none of the scene's.
+    pub area_lights: Vec<AreaLight>,
     /// The first is the default.
     pub cameras: Vec<Camera>,
     /// Factor from radiance to display-referred linear values, before clamping and the sRGB curve.
@@ -117,6 +119,15 @@ impl Scene {
     /// Triangles that emit, in index order.
     pub fn emissive_triangles(&self) -> impl Iterator<Item = u32> + '_ {
         (0..self.triangles.len() as u32).filter(|&triangle| self.emits(triangle))
+    }
+
+    /// All that shines from a surface: [`Self::area_lights`], then the emissive triangles, in order.
+    pub fn all_area_lights(&self) -> impl Iterator<Item = AreaLight> + '_ {
+        let of_meshes = self.emissive_triangles().map(|triangle| AreaLight::Triangle {
+            corners: self.corners(triangle),
+            radiance: self.material_of(triangle).emission,
+        });
+        self.area_lights.iter().copied().chain(of_meshes)
     }
 
     /// Whether any material has a specular lobe: pipelines leave GGX out where none has.

@@ -187,8 +187,8 @@ impl<'a> ManyLightFrame<'a> {
                 "computes one indirect bounce: use --transport indirect-1 or direct+indirect-1",
             );
         };
-        if scene.emissive_triangles().next().is_some() {
-            return declined("needs point-like primary lights; this scene has emissive triangles");
+        if scene.all_area_lights().next().is_some() {
+            return declined("needs point-like primary lights; this scene has some with a surface");
         }
         if scene.lights.is_empty() {
             return declined("needs a point, spot or directional light; this scene has none");

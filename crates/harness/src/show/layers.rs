@@ -128,7 +128,7 @@ fn render_direct(
     };
     let camera = scene.camera(camera).map_err(|error| at_scene(&error))?;
     // Point-like lights are summed exactly: more samples would give the same picture.
-    let is_exact = scene.emissive_triangles().next().is_none();
+    let is_exact = scene.all_area_lights().next().is_none();
     let settings = path_tracer::Settings {
         transport: Transport::Direct { visibility: Visibility::Traced },
         resolution: experiment.scale.resolution,
