@@ -155,7 +155,7 @@ fn transports_are_rendered_or_refused_with_a_reason() {
                 emission = [1.0, 1.0, 1.0]\n";
     std::fs::write(&lamp, text).expect("writable");
     let change = ["--scene", lamp.as_str(), "--transport", "direct+indirect-1"];
-    render_with(&change, "this scene has some with a surface");
+    render_with(&change, "scene has emissive triangles");
 }
 
 /// What was a number once, or had another name, is answered with the word of today.
