@@ -5,9 +5,6 @@ use serde::Deserialize;
 use super::checks::{LENGTHS, direction, number, position, radiance, vector};
 use crate::{AreaLight, Light, LoadError, Scene};
 
-/// Most lights with a surface in a scene file.
-pub(super) const MAX_AREA_LIGHTS: usize = 1 << 20;
-
 /// A light; intensities in W·sr⁻¹, irradiance in W·m⁻², radiance in W·m⁻²·sr⁻¹, lengths in metres,
 /// half-angles of cones in degrees.
 #[derive(Deserialize)]
@@ -57,8 +54,7 @@ impl LightSpec {
     }
 }
 
-/// Appends lights with a surface, unless one has no area or sends more than single precision holds,
-/// or they are too many.
+/// Appends lights with a surface, unless one has no area or sends more than single precision holds.
 pub(super) fn add_area_lights(
     scene: &mut Scene,
     place: &str,
@@ -74,11 +70,6 @@ pub(super) fn add_area_lights(
             return Err(LoadError::new(place, problem, "lower its power or radiance"));
         }
         scene.area_lights.push(light);
-    }
-    let number = scene.area_lights.len();
-    if number > MAX_AREA_LIGHTS {
-        let problem = format!("there are {number} lights with a surface in all");
-        return Err(LoadError::new(place, problem, format!("have at most {MAX_AREA_LIGHTS}")));
     }
     Ok(())
 }

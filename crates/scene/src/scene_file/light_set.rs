@@ -8,11 +8,14 @@ use serde::Deserialize;
 use super::arrangement::{self, Arrangement, Pose};
 use super::checks::{LENGTHS, direction, number, position, radiance, vector};
 use super::document::Document;
-use super::light::{MAX_AREA_LIGHTS, add_area_lights};
+use super::light::add_area_lights;
 use super::panel::{self, Panel};
 use super::picture;
 use super::random::Random;
 use crate::{AreaLight, LoadError, Scene, image_file};
+
+/// Most lights with a surface in a scene.
+const MAX_LIGHTS: usize = 1 << 20;
 
 /// Lights of one shape, size and power. Which of the optional keys there are depends on the
 /// arrangement.
@@ -57,7 +60,7 @@ impl LightSetSpec {
         document: &Document,
         place: &str,
     ) -> Result<(), LoadError> {
-        self.check_count(place)?;
+        self.check_count(scene, place)?;
         self.check_keys(place)?;
         let power = radiance(place, "power", self.power)?;
         let lights = self.lights(scene, document, place)?;
@@ -164,12 +167,14 @@ impl LightSetSpec {
         value.ok_or_else(missing)
     }
 
-    fn check_count(&self, place: &str) -> Result<(), LoadError> {
-        if (1..=MAX_AREA_LIGHTS).contains(&(self.count as usize)) {
+    fn check_count(&self, scene: &Scene, place: &str) -> Result<(), LoadError> {
+        let rest = MAX_LIGHTS.saturating_sub(scene.area_lights.len());
+        if (1..=rest).contains(&(self.count as usize)) {
             return Ok(());
         }
         let problem = format!("count = {} is out of range", self.count);
-        Err(LoadError::new(place, problem, format!("use a number from 1 to {MAX_AREA_LIGHTS}")))
+        let remedy = format!("use a number from 1; a scene has at most {MAX_LIGHTS} such lights");
+        Err(LoadError::new(place, problem, remedy))
     }
 
     /// Refuses keys that the arrangement does not have.

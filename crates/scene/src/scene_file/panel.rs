@@ -8,15 +8,14 @@ use crate::{AreaLight, LoadError};
 
 /// k of a panel of `count` lights, so many for each of its k × k texels.
 pub(super) fn texels(count: u32, of_a_texel: u32, place: &str) -> Result<u32, LoadError> {
-    let texels = (count / of_a_texel).isqrt();
+    let texels = (count / of_a_texel).isqrt().max(1);
     let [fewer, more] = [texels, texels + 1].map(|k| of_a_texel * k * k);
     if fewer == count {
         return Ok(texels);
     }
     let form = if of_a_texel == 1 { "k²".to_owned() } else { format!("{of_a_texel} k²") };
     let problem = format!("count = {count} is not {form}, as a panel's is");
-    let remedy = if texels == 0 { format!("use {more}") } else { format!("use {fewer} or {more}") };
-    Err(LoadError::new(place, problem, remedy))
+    Err(LoadError::new(place, problem, format!("use {fewer} or {more}")))
 }
 
 /// A rectangle that faces `right × up`; texels in rows from its top left, as seen from its front.
