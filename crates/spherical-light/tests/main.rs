@@ -1,0 +1,11 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod bake;
+mod common;
+mod floors;
+mod gather;
+mod hard_cases;
+mod scenes;
+mod shaders;
+mod tables;
+mod truth;
