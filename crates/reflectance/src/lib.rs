@@ -11,6 +11,8 @@ mod lobe_quadrature;
 mod lobe_shape;
 pub mod lobe_wgsl;
 pub mod lobes;
+mod materials;
+mod receiver;
 mod tables;
 pub mod zonal;
 
@@ -22,11 +24,21 @@ pub use expansion::{Damping, Form};
 pub use lobe_quadrature::{Fixed, LobeQuadrature};
 pub use lobe_shape::LobeShape;
 pub use lobe_wgsl::LOBES;
+pub use materials::{Materials, ReceiverKinds, single};
+pub use receiver::Receiver;
 pub use tables::Tables;
 
-/// The table of shapes that [`RECEIVER`] reads, of `vec2f`, as it imports it from `package::bindings`.
+/// The table of shapes that the module `receiver` of [`MODULES`] reads, of `vec2f`, as it imports it from
+/// `package::bindings`.
 pub const SHAPES: &str = "shapes";
 
-/// The WESL module `receiver`: a pixel's reflectance as gathers keep it. It imports the modules that
-/// [`lobe_wgsl::module`] and [`diffuse::module`] make, and the tables [`SHAPES`] and [`LOBES`].
-pub const RECEIVER: (&str, &str) = ("receiver", include_str!("shaders/receiver.wesl"));
+/// WESL modules with the switches of [`ReceiverKinds::features`]:
+/// - `receiver`: a pixel's reflectance as gathers keep it. It imports the modules that
+///   [`lobe_wgsl::module`] and [`diffuse::module`] make, and the tables [`SHAPES`] and [`LOBES`];
+/// - `reflection`: its products with a cap of light;
+/// - `arc_sine`: to 1e-7.
+pub const MODULES: [(&str, &str); 3] = [
+    ("receiver", include_str!("shaders/receiver.wesl")),
+    ("reflection", include_str!("shaders/reflection.wesl")),
+    ("arc_sine", include_str!("shaders/arc_sine.wesl")),
+];

@@ -34,6 +34,9 @@ pub enum Function {
     /// `sine` = r/d; its coefficients about the direction ω are c_l Y_lm(ω). Inside the sphere
     /// (`sine` > 1) the cap is the hemisphere.
     CapScales,
+    /// `cap_scales_of(sine: f32, cosine: f32) -> array<f32, n>`: the same of both, for caps near the
+    /// hemisphere, whose cosine a rounded sine does not tell.
+    CapScalesOf,
     /// `cap_scales_with_rate(sine: f32) -> array<vec2f, n>`: c_l and d·∂c_l/∂d; inside the sphere,
     /// where c_l is constant, the second is 0.
     CapScalesWithRate,
@@ -87,11 +90,12 @@ pub struct Generated {
 
 impl Function {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Evaluate,
         Self::EvaluateEven,
         Self::EvaluateWithGradient,
         Self::CapScales,
+        Self::CapScalesOf,
         Self::CapScalesWithRate,
         Self::Dot,
         Self::DotEven,
@@ -126,6 +130,10 @@ impl Function {
             Self::CapScales => {
                 (format!("cap_scales(sine: f32) -> array<f32, {n}>"), cap::scales(n))
             }
+            Self::CapScalesOf => (
+                format!("cap_scales_of(sine: f32, cosine: f32) -> array<f32, {n}>"),
+                cap::scales_of_both(n),
+            ),
             Self::CapScalesWithRate => (
                 format!("cap_scales_with_rate(sine: f32) -> array<vec2f, {n}>"),
                 cap::scales_with_rate(n),

@@ -1,0 +1,58 @@
+//! The same estimator in f64 on the CPU.
+
+use glam::DVec3;
+use manylights_gpu::SurfaceRecord;
+use manylights_harmonics::zonal::{Cap, cap_stable};
+use manylights_reflectance::{Damping, Form, Receiver};
+
+use crate::cap_table::CapTable;
+use crate::{Coefficients, Extent, Settings, SphereLight};
+
+/// As in the shader: distance, m, below which the centre lies along the normal.
+const COINCIDENT: f64 = 1e-15;
+
+/// Radiance from `surface` towards `camera`, summed over `lights`: the formula of the crate's head, in f64,
+/// from the same f32 inputs. Negative where the expansion is.
+pub fn radiance(
+    surface: &SurfaceRecord,
+    camera: DVec3,
+    lights: &[SphereLight],
+    settings: &Settings,
+) -> DVec3 {
+    if surface.triangle == SurfaceRecord::NO_TRIANGLE {
+        return DVec3::ZERO;
+    }
+    let position = surface.position.as_dvec3();
+    let normal = surface.normal.as_dvec3().normalize();
+    let view = (camera - position).normalize();
+    let bands = settings.bands;
+    let receiver = Receiver::new(surface.brdf(), [normal, view], bands, Form::Full, Damping::None);
+    let table = (settings.coefficients == Coefficients::Tabulated).then(|| CapTable::new(bands));
+    let reflected = |light: &SphereLight| {
+        let (direction, cap) = cap(light, [position, normal], settings.extent);
+        let scales = match &table {
+            Some(table) => table.scales(cap),
+            None => {
+                let mut scales = vec![0.0; bands];
+                cap_stable(cap, &mut scales);
+                scales
+            }
+        };
+        let diffuse = receiver.diffuse_product(normal.dot(direction), &scales);
+        let lobes = receiver.lambert * diffuse + receiver.specular_product(direction, &scales);
+        light.radiance.as_dvec3() * lobes
+    };
+    lights.iter().map(reflected).sum()
+}
+
+/// What a point of this normal sees of a light, and where.
+fn cap(light: &SphereLight, [position, normal]: [DVec3; 2], extent: Extent) -> (DVec3, Cap<f64>) {
+    let offset = light.center.as_dvec3() - position;
+    let (distance, radius) = (offset.length(), f64::from(light.radius));
+    let direction = if distance < COINCIDENT { normal } else { offset / distance };
+    let cap = match extent {
+        Extent::Sphere => Cap::of_sphere(radius, distance),
+        Extent::Disc => Cap::of_disk(radius, distance),
+    };
+    (direction, cap)
+}

@@ -1,0 +1,1 @@
+//! Shading by spherical lights.
