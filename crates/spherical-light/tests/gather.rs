@@ -104,7 +104,8 @@ fn linear_in_the_lights() {
         gather(&GPU, &surfaces, camera, lights, &SETTINGS).expect("a gather")
     };
     let once = of(&[sphere(0.3)]);
-    let bright = SphereLight { radiance: 2.0 * sphere(0.3).radiance, ..sphere(0.3) };
+    let mut bright = sphere(0.3);
+    bright.radiance *= 2.0;
     let twice = of(&[bright]);
     let many = of(&[sphere(0.3); 2048]);
     let peak = once.as_flattened().iter().fold(0.0_f32, |peak, value| peak.max(value.abs()));
