@@ -1,1 +1,11 @@
-//! Shading by spherical lights.
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod bake;
+mod common;
+mod floors;
+mod gather;
+mod hard_cases;
+mod scenes;
+mod shaders;
+mod tables;
+mod truth;

@@ -9,7 +9,7 @@ use manylights_reflectance::{Damping, Form, Receiver};
 use crate::cap_table::CapTable;
 use crate::{Coefficients, Extent, Product, Settings, SphereLight};
 
-/// As in the shader: distance, m, below which the centre lies along the normal.
+/// As in the shader: distance, m, below which the point is at the centre, along the normal.
 const COINCIDENT: f64 = 1e-15;
 
 /// Radiance from `surface` towards `camera`, summed over `lights`: the formula of the crate's head, in f64,
@@ -67,7 +67,8 @@ pub fn radiance(
 fn cap(light: &SphereLight, [position, normal]: [DVec3; 2], extent: Extent) -> (DVec3, Cap<f64>) {
     let offset = light.center.as_dvec3() - position;
     let (distance, radius) = (offset.length(), f64::from(light.radius));
-    let direction = if distance < COINCIDENT { normal } else { offset / distance };
+    let (distance, direction) =
+        if distance < COINCIDENT { (0.0, normal) } else { (distance, offset / distance) };
     let cap = match extent {
         Extent::Sphere => Cap::of_sphere(radius, distance),
         Extent::Disc => Cap::of_disk(radius, distance),
