@@ -47,6 +47,14 @@ impl CosineProduct {
         self == Self::Local
     }
 
+    /// Bands that it is made for: the lines of the general product grow as n⁵.
+    pub fn most_bands(self) -> usize {
+        match self {
+            Self::General | Self::Folded | Self::FoldedCut => 9,
+            Self::Local | Self::Turned => manylights_harmonics::MAX_BANDS,
+        }
+    }
+
     /// Switches of the modules `product` and `receiver` ([`crate::MODULES`]) for a linker.
     pub fn features(self, diffuse: Diffuse) -> [(&'static str, bool); 5] {
         [

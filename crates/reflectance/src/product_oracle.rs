@@ -1,6 +1,7 @@
 //! `shaders/product.wesl` in f64, from tables of integrals instead of generated lines.
 
 use std::f64::consts::FRAC_1_PI;
+use std::sync::{Arc, Mutex};
 
 use glam::DVec3;
 use manylights_harmonics::clamped_cosine::{self, Folded, Local};
@@ -30,6 +31,36 @@ pub struct ProductReceiver {
     specular: Vec<DVec3>,
     /// Coefficients of three channels.
     light: [Vec<f64>; 3],
+    integrals: Arc<Integrals>,
+}
+
+/// Tables of a product.
+enum Integrals {
+    General(Product<f64>),
+    Folded(Folded<f64>),
+    Local(Local<f64>),
+    Turned(Local<f64>, Zxzxz<f64>),
+}
+
+impl Integrals {
+    /// Made once: those of 9 bands take longer than a picture.
+    fn of(product: CosineProduct, bands: usize) -> Arc<Self> {
+        static MADE: Mutex<Vec<((CosineProduct, usize), Arc<Integrals>)>> = Mutex::new(Vec::new());
+        let mut made = MADE.lock().unwrap_or_else(|poison| poison.into_inner());
+        let key = (product, bands);
+        if let Some((_, found)) = made.iter().find(|(known, _)| *known == key) {
+            return found.clone();
+        }
+        let integrals = Arc::new(match product {
+            CosineProduct::General => Self::General(Product::new(bands)),
+            CosineProduct::Folded => Self::Folded(Folded::new(bands, bands)),
+            CosineProduct::FoldedCut => Self::Folded(Folded::new(bands, bands.min(CUT))),
+            CosineProduct::Local => Self::Local(Local::new(bands)),
+            CosineProduct::Turned => Self::Turned(Local::new(bands), Zxzxz::new(bands)),
+        });
+        made.push((key, integrals.clone()));
+        integrals
+    }
 }
 
 impl ProductReceiver {
@@ -67,6 +98,7 @@ impl ProductReceiver {
             entering: transmission(&brdf),
             specular,
             light: [0, 1, 2].map(|_| vec![0.0; count(bands)]),
+            integrals: Integrals::of(product, bands),
         }
     }
 
@@ -128,24 +160,22 @@ impl ProductReceiver {
         let bands = self.basis.bands();
         let mut product = vec![0.0; light.len()];
         let normal = self.frame[2].to_array();
-        match self.settings.0 {
-            CosineProduct::General => {
+        match &*self.integrals {
+            Integrals::General(table) => {
                 let (mut scales, mut cosine) = (vec![0.0; bands], product.clone());
                 clamped_cosine::scales(&mut scales);
                 rotate(&self.basis, &scales, normal, &mut cosine);
-                Product::new(bands).apply(light, &cosine, &mut product);
+                table.apply(light, &cosine, &mut product);
             }
-            way @ (CosineProduct::Folded | CosineProduct::FoldedCut) => {
-                let of = if way == CosineProduct::Folded { bands } else { bands.min(CUT) };
-                let mut y = vec![0.0; count(of)];
-                Basis::new(of).evaluate(normal, &mut y);
-                Folded::new(bands, of).apply(light, &y, &mut product);
+            Integrals::Folded(table) => {
+                let mut y = vec![0.0; light.len()];
+                self.basis.evaluate(normal, &mut y);
+                table.apply(light, &y[..count(table.cosine_bands())], &mut product);
             }
-            CosineProduct::Local => Local::new(bands).apply(light, &mut product),
-            CosineProduct::Turned => {
-                let (turn, to_frame) = (Zxzxz::new(bands), self.frame.map(|axis| axis.to_array()));
-                let mut light = light.to_vec();
-                Local::new(bands).apply_turned(&turn, to_frame, &mut light, &mut product);
+            Integrals::Local(table) => table.apply(light, &mut product),
+            Integrals::Turned(table, turn) => {
+                let to_frame = self.frame.map(|axis| axis.to_array());
+                table.apply_turned(turn, to_frame, &mut light.to_vec(), &mut product);
             }
         }
         product
