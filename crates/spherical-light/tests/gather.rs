@@ -10,7 +10,7 @@ use manylights_scene::Brdf;
 use manylights_spherical_light::{Coefficients, Extent, Settings, SphereLight, gather, oracle};
 
 /// Receivers around the origin.
-fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
+pub(crate) fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
     (0..512)
         .map(|i| {
             let place = spiral(i, 512, -1.0).as_vec3() * (0.2 + 0.01 * i as f32);
@@ -22,7 +22,7 @@ fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
 }
 
 /// Largest difference to the oracle over all receivers, relative to the largest true radiance.
-fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> f64 {
+pub(crate) fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> f64 {
     let camera = oblique(Vec3::new(0.3, 7.0, 0.2));
     let surfaces = receivers(brdf, camera);
     let pixels = gather(&GPU, &surfaces, camera, lights, settings).expect("a gather");
@@ -38,7 +38,7 @@ fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> f64 {
     worst / peak
 }
 
-fn sphere(radius: f32) -> SphereLight {
+pub(crate) fn sphere(radius: f32) -> SphereLight {
     SphereLight::new(oblique(Vec3::new(0.02, 0.05, 0.01)), radius, Vec3::new(1.0, 0.7, 0.3))
 }
 
@@ -104,7 +104,8 @@ fn linear_in_the_lights() {
         gather(&GPU, &surfaces, camera, lights, &SETTINGS).expect("a gather")
     };
     let once = of(&[sphere(0.3)]);
-    let bright = SphereLight { radiance: 2.0 * sphere(0.3).radiance, ..sphere(0.3) };
+    let mut bright = sphere(0.3);
+    bright.radiance *= 2.0;
     let twice = of(&[bright]);
     let many = of(&[sphere(0.3); 2048]);
     let peak = once.as_flattened().iter().fold(0.0_f32, |peak, value| peak.max(value.abs()));
