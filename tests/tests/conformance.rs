@@ -116,11 +116,10 @@ fn methods_decline_or_give_a_finite_picture_that_the_seed_decides_where_chance_d
                 // What chance has no part in is exact: more work changes nothing either.
                 let exact = || render(70, 1).expect("a picture") == image;
                 let other = render(33, 2).expect("a picture");
-                match method.is_random() {
-                    true => {
-                        assert!(other != image || exact(), "{what}: the seed does not reach it")
-                    }
-                    false => assert!(other == image, "{what}: the seed reaches it"),
+                if method.is_random() {
+                    assert!(other != image || exact(), "{what}: the seed does not reach it");
+                } else {
+                    assert!(other == image, "{what}: the seed reaches it");
                 }
                 if let Some(baking) = method.baking() {
                     let baked = baked(&stage, baking, *method, transport);

@@ -144,6 +144,26 @@ fn cap_scales_keep_six_digits_in_f32() {
     println!("scales {:.1e}, rates {:.1e}", worst[0], worst[1]);
 }
 
+/// Down to the hemisphere, of which a rounded sine is 1 long before.
+#[test]
+fn cap_scales_of_sine_and_cosine_keep_six_digits_in_f32() {
+    let wgsl = Function::CapScalesOf.generate(MAX_BANDS).wgsl;
+    let angles = (1..=90).map(|degrees| f64::from(degrees).to_radians());
+    let near_hemisphere = [1e-2, 1e-3, 1e-5, 0.0].map(|gap| std::f64::consts::FRAC_PI_2 - gap);
+    for angle in angles.chain([1e-4, 1e-8]).chain(near_hemisphere) {
+        let [sine, cosine] = [angle.sin(), angle.cos().max(0.0)];
+        let [s, c] = [sine, cosine].map(|value| vec![value as f32]);
+        let result = run(&wgsl, &[("sine", s), ("cosine", c)]);
+        let mut truth = vec![0.0; MAX_BANDS];
+        cap_stable(Cap { sine, cosine }, &mut truth);
+        let largest = truth.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        for (l, (value, truth)) in result.iter().zip(&truth).enumerate() {
+            let error = (f64::from(*value) - truth).abs();
+            assert!(error <= 1e-6 * largest, "band {l} at {angle}: {error:e}");
+        }
+    }
+}
+
 fn half(bands: usize, values: &[f32]) -> Numbers {
     (0..bands).flat_map(|l| (0..=l).map(move |m| values[index(l, m as isize)])).collect()
 }

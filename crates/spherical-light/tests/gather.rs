@@ -4,9 +4,10 @@ use crate::common::{
     DIRECT, GPU, SETTINGS, all_settings, dielectric, glossy, metal, oblique, render, scene,
     spheres, spiral, surface,
 };
+use crate::tensor;
 use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Measured};
 use manylights_spherical_light::{Coefficients, Extent, Settings, SphereLight, gather, oracle};
 
 /// Receivers around the origin.
@@ -38,13 +39,22 @@ pub(crate) fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> 
     worst / peak
 }
 
+/// A synthetic measurement with a lobe of its own for each channel.
+fn measured() -> Brdf {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("synthetic.bsdf");
+    std::fs::write(&path, tensor::satin()).expect("can write");
+    Measured::load(&path).expect("valid").brdf()
+}
+
 pub(crate) fn sphere(radius: f32) -> SphereLight {
     SphereLight::new(oblique(Vec3::new(0.02, 0.05, 0.01)), radius, Vec3::new(1.0, 0.7, 0.3))
 }
 
 #[test]
 fn every_lobe_in_every_setting() {
-    let brdfs = [Brdf::lambert(Vec3::splat(0.7)), glossy(0.4), metal(0.3), dielectric(0.5)];
+    let lambert = Brdf::lambert(Vec3::splat(0.7));
+    let brdfs = [lambert, glossy(0.4), metal(0.3), dielectric(0.5), measured()];
     for brdf in brdfs {
         for settings in all_settings() {
             for bands in [1, 2, 5, 9, 15] {

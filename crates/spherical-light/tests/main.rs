@@ -10,3 +10,6 @@ mod scenes;
 mod shaders;
 mod tables;
 mod truth;
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;
