@@ -2,16 +2,38 @@
 
 use std::sync::LazyLock;
 
+use glam::Vec3;
 use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
 use manylights_method::{Error, Frame, Method, Parameters, Run};
 use manylights_metrics::RadianceImage;
 use manylights_path_tracer::{Reference, Settings};
-use manylights_scene::Scene;
-use manylights_scene::{Transport, Visibility};
+use manylights_scene::{AreaLight, Scene, Transport, Visibility};
 
 /// The adapter. It keeps kernels, which take long to compile.
 pub static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
+
+/// The built-in `trio` under `count` spheres of light on a spiral around it in the place of its spot light,
+/// the narrowest lobe widened to roughness 0.3: what methods on lights with a surface take.
+pub fn under_spheres(count: u32) -> Scene {
+    let mut scene = manylights_scene::load("trio", None).expect("built in");
+    scene.name = format!("trio under {count} spheres");
+    scene.lights.clear();
+    for material in &mut scene.materials {
+        material.roughness = material.roughness.max(0.3);
+    }
+    let sphere = |i: u32| {
+        let turn = (i as f32 + 0.5) / count as f32;
+        let (sin, cos) = (i as f32 * 2.399_963).sin_cos();
+        AreaLight::Sphere {
+            center: Vec3::new(2.5 * cos, 0.5 + 2.0 * turn, 2.5 * sin),
+            radius: 0.1 + 0.4 * turn,
+            radiance: Vec3::new(1.0, 0.8, 0.5 + 0.5 * turn) * (20.0 / count as f32),
+        }
+    };
+    scene.area_lights = (0..count).map(sphere).collect();
+    scene
+}
 
 /// A scene on the adapter, seen by its first camera.
 pub struct Stage {

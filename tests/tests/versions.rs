@@ -12,9 +12,10 @@ use std::path::PathBuf;
 
 use bytemuck::cast_slice;
 use glam::Vec3;
+use manylights_area_lights::AREA_LIGHTS_VERSION;
 use manylights_gpu::{SHADERS_VERSION, Shadows};
 use manylights_harness::registry::METHODS;
-use manylights_method::{Method, Processor};
+use manylights_method::{Error, Method, Processor};
 use manylights_metrics::{
     METRICS, METRICS_VERSION, RadianceImage, compare_display, compare_linear,
 };
@@ -22,8 +23,8 @@ use manylights_path_tracer::{REFERENCE_VERSION, Settings};
 use manylights_reflectance::lobes::LobeTable;
 use manylights_reflectance::zonal::ZonalTable;
 use manylights_reflectance::{Damping, TABLES_VERSION, diffuse};
-use manylights_scene::Lobe;
-use manylights_tests::{GPU, Stage};
+use manylights_scene::{Lobe, Scene, Transport};
+use manylights_tests::{GPU, Stage, under_spheres};
 use manylights_virtual_lights::{PLACEMENT_VERSION, RadiusRule, distribute, lit_maps, radii};
 use serde_json::{Value, json};
 
@@ -96,20 +97,41 @@ fn components(vectors: impl IntoIterator<Item = Vec3>) -> Vec<f64> {
     vectors.into_iter().flat_map(|vector| vector.to_array()).map(f64::from).collect()
 }
 
-/// At its default parameters, as its source shades.
+/// At its default parameters, as its source shades: one indirect bounce of point-like lights, or else direct
+/// light of those with a surface.
 fn of_method(method: &dyn Method) -> Sketch {
-    let picture = |scene| {
-        numbers(&Stage::builtin(scene, RESOLUTION).picture(method, &[], method.visibility(), 1))
-    };
-    let numbers = SCENES.map(picture).concat();
+    let visibility = method.visibility();
+    let indirect = Transport::Indirect { bounces: 1, visibility };
+    let scenes = SCENES.map(|scene| manylights_scene::load(scene, None).expect("built in"));
+    let bounced: Option<Vec<_>> =
+        scenes.map(|scene| picture(method, scene, indirect)).into_iter().collect();
     let own = ("method", method.version());
-    match method.processor() {
-        Processor::Cpu => Sketch::new([own], &numbers),
-        Processor::Gpu => {
-            let [placement, shaders, tables] = shared();
-            Sketch::new([own, placement, shaders, tables], &numbers)
+    let [placement, shaders, tables] = shared();
+    match (bounced, method.processor()) {
+        (Some(numbers), Processor::Cpu) => Sketch::new([own], &numbers.concat()),
+        (Some(numbers), Processor::Gpu) => {
+            Sketch::new([own, placement, shaders, tables], &numbers.concat())
+        }
+        (None, _) => {
+            let direct = Transport::Direct { visibility };
+            let numbers = picture(method, under_spheres(5), direct);
+            let numbers = numbers.unwrap_or_else(|| panic!("{} declines all", method.id()));
+            let area_lights = ("area_lights", AREA_LIGHTS_VERSION);
+            Sketch::new([own, area_lights, shaders, tables], &numbers)
         }
     }
+}
+
+/// `None` where the method declines.
+fn picture(method: &dyn Method, scene: Scene, transport: Transport) -> Option<Vec<f64>> {
+    let stage = Stage::new(scene, RESOLUTION);
+    let mut run = match stage.prepare(method, &[], transport, 1) {
+        Ok(run) => run,
+        Err(Error::Declined(_)) => return None,
+        Err(error) => panic!("{}: {error}", method.id()),
+    };
+    while !run.step().expect("a step").finished() {}
+    Some(numbers(&run.resolve().expect("a picture")))
 }
 
 /// As the harness collects them for cells on the adapter.

@@ -1,8 +1,10 @@
 //! The only list of methods in the workspace. Help, lists, sweeps and plot styles derive from it.
 
+use manylights_area_lights::AreaLights;
 use manylights_hvl::Hvl;
 use manylights_method::Method;
 use manylights_path_tracer::PathTracer;
+use manylights_spherical_light::SphericalLights;
 use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 use manylights_vsgl::Vsgl;
@@ -20,6 +22,7 @@ pub const METHODS: Methods = &[
     &VirtualLights(Vsl),
     &VirtualLights(Hvl),
     &VirtualLights(Vsgl),
+    &AreaLights(SphericalLights),
 ];
 
 /// Where the method of this name stands in a list.

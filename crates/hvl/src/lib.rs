@@ -67,12 +67,12 @@ use glam::Vec3;
 use manylights_gpu::{Buffer, Gpu, SurfaceRecord};
 use manylights_harmonics::even_count;
 use manylights_method::{Error, ParameterInfo, Parameters};
-use manylights_reflectance::Tables;
+use manylights_reflectance::{Materials, Tables};
 use manylights_virtual_lights::LightGather;
 use manylights_virtual_lights::{Estimator, ManyLightFrame, ManyLightRun, SceneTables};
 
 use emission::EmissionTables;
-use gather::{CAPACITY, Materials};
+use gather::CAPACITY;
 
 pub use gather::{LobeKinds, linked_shader};
 pub use light_record::rounded;
@@ -107,7 +107,7 @@ impl Estimator for Hvl {
         let (shadows, tables) = (frame.shadows()?, tables.on_gpu.clone());
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = gather::gather(gpu, surfaces, eye, &materials, tables, &settings, shadows)?;
-        let products_a_pair = even_count(settings.bands) * materials.channels();
+        let products_a_pair = even_count(settings.bands) * materials.kinds().channels();
         let products_a_batch = u64::from(pixels) * (CAPACITY * products_a_pair) as u64;
         let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
         let place = move |gather: &LightGather| {
@@ -128,12 +128,12 @@ impl SceneTables for LobeTables {
     fn new(frame: &ManyLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
         let settings = Settings::new(parameters);
         let materials = Materials::of_scene(frame.scene);
-        if let Some(reason) = materials.declined(&settings) {
+        if let Some(reason) = gather::declined(&materials, &settings) {
             return Err(Error::Declined(reason.into()));
         }
         let (receivers, emissions) = (Tables::new(), EmissionTables::new());
         let gpu = frame.on_gpu.gpu();
-        let on_gpu = materials.tables(gpu, &settings, (&receivers, &emissions))?;
+        let on_gpu = gather::tables(&materials, gpu, &settings, (&receivers, &emissions))?;
         Ok(Self { on_gpu, count: receivers.count() + emissions.count() })
     }
 
@@ -157,7 +157,8 @@ pub fn gather(
 ) -> Result<Vec<[f32; 3]>, manylights_gpu::Error> {
     let brdfs = surfaces.iter().map(SurfaceRecord::brdf);
     let materials = Materials::new(brdfs.chain(lights.iter().map(|sphere| sphere.light.brdf)));
-    let tables = materials.tables(gpu, settings, (Tables::shared(), EmissionTables::shared()))?;
+    let shared = (Tables::shared(), EmissionTables::shared());
+    let tables = gather::tables(&materials, gpu, settings, shared)?;
     let on_gpu = gpu.storage("surfaces", surfaces)?;
     let surfaces = (&on_gpu, surfaces.len() as u32);
     let gather = gather::gather(gpu, surfaces, camera, &materials, tables, settings, None)?;

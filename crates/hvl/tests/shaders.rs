@@ -2,16 +2,13 @@
 
 use crate::common::{FORMS, GPU, SETTINGS};
 use manylights_hvl::{Horizon, LobeKinds, Settings, linked_shader};
-use manylights_reflectance::Form;
+use manylights_reflectance::{Form, ReceiverKinds};
 
-const LAMBERT: LobeKinds = LobeKinds {
-    receivers: false,
-    lights: false,
-    colored: false,
-    exact_fresnel: false,
-    measured: false,
-};
-const GLOSSY: LobeKinds = LobeKinds { receivers: true, lights: true, colored: true, ..LAMBERT };
+const NONE: ReceiverKinds =
+    ReceiverKinds { specular: false, colored: false, exact_fresnel: false, measured: false };
+const LAMBERT: LobeKinds = LobeKinds { receivers: NONE, lights: false };
+const COLORED: ReceiverKinds = ReceiverKinds { specular: true, colored: true, ..NONE };
+const GLOSSY: LobeKinds = LobeKinds { receivers: COLORED, lights: true };
 
 #[test]
 fn a_lambertian_scene_links_no_ggx() {
@@ -37,15 +34,16 @@ fn a_lambertian_scene_links_no_ggx() {
 
 #[test]
 fn every_permutation_is_valid() {
+    let of = |receivers, lights| LobeKinds { receivers, lights };
     let lobes = [
         LAMBERT,
-        LobeKinds { receivers: true, ..LAMBERT },
-        LobeKinds { lights: false, ..GLOSSY },
-        LobeKinds { colored: false, ..GLOSSY },
+        of(ReceiverKinds { specular: true, ..NONE }, false),
+        of(COLORED, false),
+        of(ReceiverKinds { colored: false, ..COLORED }, true),
         GLOSSY,
-        LobeKinds { exact_fresnel: true, ..GLOSSY },
-        LobeKinds { measured: true, ..GLOSSY },
-        LobeKinds { measured: true, exact_fresnel: true, ..GLOSSY },
+        of(ReceiverKinds { exact_fresnel: true, ..COLORED }, true),
+        of(ReceiverKinds { measured: true, ..COLORED }, true),
+        of(ReceiverKinds { measured: true, exact_fresnel: true, ..COLORED }, true),
     ];
     for form in FORMS {
         for lobes in lobes {
@@ -53,7 +51,7 @@ fn every_permutation_is_valid() {
                 let horizon = if bands % 2 == 0 { Horizon::Smooth } else { Horizon::Exact };
                 let settings = Settings { form, bands, emission_bands, horizon, ..SETTINGS };
                 let declined = form == Form::Zonal || emission_bands == 0;
-                if lobes.measured && declined {
+                if lobes.receivers.measured && declined {
                     continue;
                 }
                 for traced in [false, true] {

@@ -8,6 +8,7 @@
 mod bake;
 mod cost;
 mod parameters;
+mod pass_times;
 
 use manylights_gpu::GpuFrame;
 use manylights_metrics::RadianceImage;
@@ -17,6 +18,7 @@ pub use bake::{Bake, Baking, Dependencies};
 pub use cost::{Amounts, Cost, Direction};
 pub use manylights_gpu::PassTime;
 pub use parameters::{ChoiceWord, ParameterInfo, ParameterKind, ParameterValue, Parameters};
+pub use pass_times::PassTimes;
 
 /// Where the work of a method is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +40,7 @@ pub struct Frame<'a> {
     pub resolution: [u32; 2],
     /// Which light paths count.
     pub transport: Transport,
-    /// Same seed, same picture, bit for bit, on one adapter.
+    /// Same seed, same picture, bit for bit, on one adapter ([`Method::is_random`]).
     pub seed: u64,
     /// The scene on the adapter and its G-buffer for this camera.
     pub gpu: Option<&'a GpuFrame>,
@@ -117,6 +119,12 @@ pub trait Method: Sync {
     /// Whether the picture after every step estimates the final one, so that one run gives a whole
     /// curve of error against time. Its cost is then a count, the one that [`Progress`] tells of.
     fn is_progressive(&self) -> bool;
+
+    /// Whether chance has a part in the picture: then another [`Frame::seed`] gives another one. Else all
+    /// seeds give the same, bit for bit.
+    fn is_random(&self) -> bool {
+        true
+    }
 
     /// How it bakes what further frames reuse; `None` where there is nothing.
     fn baking(&self) -> Option<&dyn Baking> {

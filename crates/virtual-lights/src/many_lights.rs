@@ -6,7 +6,7 @@ use glam::Vec3;
 use manylights_gpu::{GpuFrame, Shadows};
 use manylights_method::{
     Bake, Baking, Cost, CounterInfo, Dependencies, Error, Frame, Method, ParameterInfo, Parameters,
-    PassTime, Processor, Progress, Run,
+    PassTime, PassTimes, Processor, Progress, Run,
 };
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Scene, Transport, Visibility};
@@ -223,7 +223,7 @@ pub struct ManyLightRun<'a> {
     place: Box<dyn Fn(&LightGather) -> PlacedLights + 'a>,
     placed: Option<LightBatches>,
     next: usize,
-    times: Vec<PassTime>,
+    times: PassTimes,
 }
 
 impl<'a> ManyLightRun<'a> {
@@ -243,21 +243,7 @@ impl<'a> ManyLightRun<'a> {
             place: Box::new(place),
             placed: None,
             next: 0,
-            times: Vec::new(),
-        }
-    }
-
-    /// Adds up the times of passes of one name. What `since` then took beyond them is named as a pass of
-    /// the host, so that passes leave nothing out.
-    fn add_times(&mut self, times: &[PassTime], host: &'static str, since: Instant) {
-        let passes: f64 = times.iter().map(|time| time.seconds).sum();
-        let seconds = (since.elapsed().as_secs_f64() - passes).max(0.0);
-        let host = PassTime { pass: host, seconds };
-        for &PassTime { pass, seconds } in times.iter().chain([&host]) {
-            match self.times.iter_mut().find(|time| time.pass == pass) {
-                Some(time) => time.seconds += seconds,
-                None => self.times.push(PassTime { pass, seconds }),
-            }
+            times: PassTimes::default(),
         }
     }
 }
@@ -270,7 +256,7 @@ impl Run for ManyLightRun<'_> {
             None => {
                 let (batches, times) = (self.place)(&self.gather)?;
                 // Maps read back, lights made of them and uploaded.
-                self.add_times(&times, "place", start);
+                self.times.add(&times, "place", start);
                 batches
             }
         };
@@ -278,7 +264,7 @@ impl Run for ManyLightRun<'_> {
         let end = (self.next + self.batches_a_step).min(batches.count());
         let times = self.gather.add(&batches, self.next..end)?;
         // Passes encoded, submitted and waited for.
-        self.add_times(&times, "submit", start);
+        self.times.add(&times, "submit", start);
         self.next = end;
         let [done, total] = [end, batches.count()].map(|end| batches.lights(0..end));
         self.placed = Some(batches);
@@ -301,6 +287,6 @@ impl Run for ManyLightRun<'_> {
     }
 
     fn pass_times(&self) -> Vec<PassTime> {
-        self.times.clone()
+        self.times.list()
     }
 }

@@ -4,6 +4,7 @@ use manylights_gpu::{Error, Operations, Reflectances, operations};
 use manylights_hvl::{Hvl, LobeKinds};
 use manylights_method::Method;
 use manylights_reflectance::Form;
+use manylights_reflectance::ReceiverKinds;
 use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
 use manylights_vsgl::Vsgl;
@@ -101,13 +102,8 @@ fn of_vsgl(kinds: &Reflectances) -> Result<Operations, Error> {
 fn of_hvl(glossy: bool, form: Form, bands: usize) -> Result<Operations, Error> {
     let settings = manylights_hvl::Settings { form, bands, ..manylights_hvl::Settings::default() };
     // `trio` has a coloured metal.
-    let lobes = LobeKinds {
-        receivers: glossy,
-        lights: glossy,
-        colored: glossy,
-        exact_fresnel: false,
-        measured: false,
-    };
+    let receivers = ReceiverKinds { specular: glossy, colored: glossy, ..ReceiverKinds::default() };
+    let lobes = LobeKinds { receivers, lights: glossy };
     let shader = manylights_hvl::linked_shader(lobes, false, &settings)?;
     operations(&shader.wgsl, CONTRIBUTION, 1)
 }

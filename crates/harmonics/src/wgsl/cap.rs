@@ -10,12 +10,18 @@
 use super::lines::{Factor, Lines};
 
 pub(super) fn scales(bands: usize) -> Lines {
-    let (lines, values) = name_scales(bands);
+    let (lines, values) = name_scales(bands, false);
+    lines.give_array("f32", &values)
+}
+
+/// Of sine and cosine.
+pub(super) fn scales_of_both(bands: usize) -> Lines {
+    let (lines, values) = name_scales(bands, true);
     lines.give_array("f32", &values)
 }
 
 pub(super) fn scales_with_rate(bands: usize) -> Lines {
-    let (mut lines, values) = name_scales(bands);
+    let (mut lines, values) = name_scales(bands, false);
     // Inside, the scales are constant; outside, α ≥ 3e-4 in f32.
     lines.bind("r0", "select(0.0, -k / cosine, sine < 1.0)");
     name_differences(&mut lines, "r", "f", 0, bands, |l| (l, 2.0 * l + 1.0, l + 1.0));
@@ -23,11 +29,15 @@ pub(super) fn scales_with_rate(bands: usize) -> Lines {
     lines.give_array("vec2f", &pairs.collect::<Vec<_>>())
 }
 
-fn name_scales(bands: usize) -> (Lines, Vec<String>) {
+fn name_scales(bands: usize, cosine_is_given: bool) -> (Lines, Vec<String>) {
     let mut lines = Lines::default();
-    lines.bind("s", "min(sine, 1.0)");
-    lines.bind("s2", "s * s");
-    lines.bind("cosine", "sqrt((1.0 - s) * (1.0 + s))");
+    if cosine_is_given {
+        lines.bind("s2", "sine * sine");
+    } else {
+        lines.bind("s", "min(sine, 1.0)");
+        lines.bind("s2", "s * s");
+        lines.bind("cosine", "sqrt((1.0 - s) * (1.0 + s))");
+    }
     lines.bind("versine", "s2 / (1.0 + cosine)");
     lines.bind("k", format_args!("{} * s2", Factor::Constant(std::f64::consts::TAU)));
     let tau = Factor::Constant(std::f64::consts::TAU);

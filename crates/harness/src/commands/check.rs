@@ -17,9 +17,14 @@ use clap::Args;
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
-    /// Folder of the baseline: its experiment.toml and cells.jsonl
-    #[arg(long, value_name = "DIR", default_value = "results/check")]
-    pub(crate) baseline: PathBuf,
+    /// Folders of baselines: each an experiment.toml and its cells.jsonl
+    #[arg(
+        long,
+        value_name = "DIR",
+        num_args = 1..,
+        default_values = ["results/check", "results/check-direct"]
+    )]
+    pub(crate) baseline: Vec<PathBuf>,
     /// Makes what comes out the new baseline
     #[arg(long)]
     pub(crate) bless: bool,
@@ -30,14 +35,42 @@ pub(crate) struct CheckArguments {
     pub(crate) machine: Machine,
 }
 
-/// Runs the quick profile of the baseline's experiment afresh and compares. With `--bless`, what came
+/// Runs the quick profile of each baseline's experiment afresh and compares. With `--bless`, what came
 /// out becomes the baseline. Where a time is the budget, the baseline's amount of work is repeated, since
 /// a search ends elsewhere each time.
 ///
 /// # Errors
 /// One line: bad input; or something moved, after a table of it.
 pub(crate) fn run(arguments: &CheckArguments, methods: Methods) -> Result<(), Failure> {
-    let directory = &arguments.baseline;
+    let mut moved = Vec::new();
+    let mut folders = Vec::new();
+    for directory in &arguments.baseline {
+        let of_folder = compare(directory, arguments, methods)?;
+        if !of_folder.is_empty() {
+            folders.push(directory.display().to_string());
+        }
+        moved.extend(of_folder);
+    }
+    if arguments.json {
+        print_json(&serde_json::to_value(&moved).expect("plain data"))?;
+    }
+    if moved.is_empty() {
+        return Ok(());
+    }
+    print_table(&moved);
+    Err(Failure::Failed(format!(
+        "{} quantities moved; where that is meant: manylights check --baseline {} --bless",
+        moved.len(),
+        folders.join(" ")
+    )))
+}
+
+/// What moved against one baseline; nothing where it is blessed.
+fn compare(
+    directory: &Path,
+    arguments: &CheckArguments,
+    methods: Methods,
+) -> Result<Vec<Moved>, Failure> {
     let file = directory.join("experiment.toml");
     let experiment = experiment::read(&file, Profile::Quick, methods).map_err(Failure::input)?;
     let path = directory.join("cells.jsonl");
@@ -53,12 +86,12 @@ pub(crate) fn run(arguments: &CheckArguments, methods: Methods) -> Result<(), Fa
     }
     // References too are made afresh: those of a cache are from before the change.
     let fresh = tempfile::tempdir().map_err(Failure::input)?;
-    let cells = measure(&experiment, &baseline, fresh.path(), arguments)?;
+    let cells = measure(&experiment, &baseline, [fresh.path(), directory], arguments)?;
     if arguments.bless {
         let lines: String = cells.iter().map(lines::line).collect();
         output::write(&path, lines.as_bytes())?;
         say(format_args!("{}: {} cells are the new baseline", path.display(), cells.len()));
-        return Ok(());
+        return Ok(Vec::new());
     }
     let moved = regression::compare(&baseline, &cells);
     report_times(&baseline, &cells);
@@ -74,32 +107,23 @@ pub(crate) fn run(arguments: &CheckArguments, methods: Methods) -> Result<(), Fa
             cell.provenance.cpu
         ));
     }
-    if arguments.json {
-        print_json(&serde_json::to_value(&moved).expect("plain data"))?;
-    }
     if moved.is_empty() {
-        say(format_args!("nothing moved: {} cells", cells.len()));
-        return Ok(());
+        say(format_args!("{}: nothing moved: {} cells", directory.display(), cells.len()));
     }
-    print_table(&moved);
-    Err(Failure::Failed(format!(
-        "{} quantities moved; where that is meant: manylights check --baseline {} --bless",
-        moved.len(),
-        directory.display()
-    )))
+    Ok(moved)
 }
 
 fn measure(
     experiment: &Experiment,
     baseline: &[Cell],
-    out: &Path,
+    [out, directory]: [&Path; 2],
     arguments: &CheckArguments,
 ) -> Result<Vec<Cell>, Failure> {
     let machine = &arguments.machine;
     let scenes = run::load(experiment, machine.assets.as_deref())?;
     if arguments.bless {
         let sources = scenes.iter().flat_map(|scene| &scene.sources).map(PathBuf::as_path);
-        output::keep_inputs([arguments.baseline.join("cells.jsonl")], sources, "--baseline")?;
+        output::keep_inputs([directory.join("cells.jsonl")], sources, "--baseline")?;
     }
     let cache = out.join("references");
     output::check_directory(&cache, "TMPDIR")?;

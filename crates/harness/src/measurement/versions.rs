@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use manylights_area_lights::AREA_LIGHTS_VERSION;
 use manylights_gpu::SHADERS_VERSION;
 use manylights_method::{Method, Processor};
 use manylights_metrics::METRICS_VERSION;
@@ -41,6 +42,10 @@ pub(crate) fn of(method: &dyn Method, references: &[Reference]) -> Versions {
         false => &[][..],
     };
     let judges = judges.map(|(name, judge)| (format!("reference {name}"), judge.version()));
-    let own = everywhere.iter().chain(shared).map(|&(name, version)| (name.to_owned(), version));
+    // A stage that came later is left out at its first version, so that older results keep their keys.
+    let later = [("area_lights", AREA_LIGHTS_VERSION)];
+    let later = later.iter().filter(|(_, version)| !shared.is_empty() && *version > 1);
+    let own = everywhere.iter().chain(shared).chain(later);
+    let own = own.map(|&(name, version)| (name.to_owned(), version));
     own.chain(judges).collect()
 }

@@ -1,0 +1,175 @@
+//! What methods on lights with a surface have in common, but for the estimator.
+
+use bytemuck::Pod;
+use manylights_method::{
+    Bake, Baking, Cost, CounterInfo, Dependencies, Direction, Error, Frame, Method, ParameterInfo,
+    Parameters, PassTime, Processor, Run,
+};
+use manylights_scene::{AreaLight, Visibility};
+
+use crate::frame::AreaLightFrame;
+use crate::run::AreaLightRun;
+
+/// The name of the parameter that time and accuracy grow with.
+pub const BANDS: &str = "bands";
+
+/// What a light with a surface contributes to a pixel, on the adapter. All else is alike for all of them,
+/// and [`AreaLights`] makes them a [`Method`] of it: direct light of all lights at every pixel, without
+/// shadows; time and accuracy grow with the parameter [`BANDS`]; nothing is left to chance; and half of
+/// the lights is half of the light, so that only the last picture estimates anything.
+pub trait Estimator: Sync + 'static {
+    /// As [`Method::id`].
+    const ID: &'static str;
+    /// As [`Method::title`].
+    const TITLE: &'static str;
+    /// As [`Method::version`].
+    const VERSION: u32;
+    /// As [`Method::parameters`], [`BANDS`] among them.
+    const PARAMETERS: &'static [ParameterInfo];
+    /// The kind of light that it takes, in the plural.
+    const TAKES: &'static str;
+    /// A light as its shader reads it: a multiple of 16 bytes.
+    type Light: Pod;
+    /// What it bakes.
+    type Tables: SceneTables;
+
+    /// The record of a light; `None` of a kind that it does not take.
+    fn light(light: &AreaLight) -> Option<Self::Light>;
+
+    /// As [`Bake::prepare`], for a frame whose lights are of its kind.
+    ///
+    /// # Errors
+    /// [`Error::Declined`] with a reason where the scene is not the method's.
+    fn start<'a>(
+        frame: AreaLightFrame<'a>,
+        lights: Vec<Self::Light>,
+        parameters: &Parameters,
+        tables: &Self::Tables,
+    ) -> Result<AreaLightRun<'a, Self::Light>, Error>;
+}
+
+/// What an estimator tabulates, on the processor, of the materials of a scene and of its own formulas.
+pub trait SceneTables: Sized + 'static {
+    /// Makes all of them anew.
+    ///
+    /// # Errors
+    /// [`Error::Declined`] with a reason where the scene is not the method's.
+    fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error>;
+
+    /// How many were made.
+    fn count(&self) -> u64;
+}
+
+/// The method of an estimator.
+#[derive(Clone, Copy, Debug)]
+pub struct AreaLights<M>(pub M);
+
+impl<M: Estimator> Method for AreaLights<M> {
+    fn id(&self) -> &'static str {
+        M::ID
+    }
+
+    fn title(&self) -> &'static str {
+        M::TITLE
+    }
+
+    fn version(&self) -> u32 {
+        M::VERSION
+    }
+
+    fn processor(&self) -> Processor {
+        Processor::Gpu
+    }
+
+    fn parameters(&self) -> &'static [ParameterInfo] {
+        M::PARAMETERS
+    }
+
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[CounterInfo { name: "lights", help: "that were gathered" }]
+    }
+
+    fn cost(&self) -> Cost {
+        Cost { parameter: BANDS, grows: Direction::Up }
+    }
+
+    fn visibility(&self) -> Visibility {
+        Visibility::Ignored
+    }
+
+    fn is_progressive(&self) -> bool {
+        false
+    }
+
+    fn is_random(&self) -> bool {
+        false
+    }
+
+    fn baking(&self) -> Option<&dyn Baking> {
+        Some(self)
+    }
+
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        self.bake(frame, parameters)?.prepare(frame, parameters)
+    }
+}
+
+impl<M: Estimator> Baking for AreaLights<M> {
+    fn depends_on(&self) -> Dependencies {
+        Dependencies { scene: true, amount: true, ..Dependencies::default() }
+    }
+
+    fn processor(&self) -> Processor {
+        Processor::Cpu
+    }
+
+    fn counters(&self) -> &'static [CounterInfo] {
+        &[CounterInfo { name: "tables", help: "made of the scene's materials and of coefficients" }]
+    }
+
+    fn bake(&self, frame: &Frame<'_>, parameters: &Parameters) -> Result<Box<dyn Bake>, Error> {
+        let frame = AreaLightFrame::new(frame)?;
+        records::<M>(&frame)?;
+        Ok(Box::new(Baked::<M>(M::Tables::new(&frame, parameters)?)))
+    }
+}
+
+/// The lights of a frame, where all are of the estimator's kind.
+fn records<M: Estimator>(frame: &AreaLightFrame<'_>) -> Result<Vec<M::Light>, Error> {
+    let records: Option<Vec<_>> = frame.lights.iter().map(M::light).collect();
+    records.ok_or_else(|| {
+        let others = frame.lights.iter().filter(|light| M::light(light).is_none()).count();
+        let all = frame.lights.len();
+        Error::Declined(format!(
+            "takes lights that are {}; of this scene's {all} lights {others} are others",
+            M::TAKES
+        ))
+    })
+}
+
+/// The tables of an estimator.
+struct Baked<M: Estimator>(M::Tables);
+
+impl<M: Estimator> Bake for Baked<M> {
+    fn prepare<'a>(
+        &self,
+        frame: &Frame<'a>,
+        parameters: &Parameters,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        let frame = AreaLightFrame::new(frame)?;
+        let lights = records::<M>(&frame)?;
+        Ok(Box::new(M::start(frame, lights, parameters, &self.0)?))
+    }
+
+    fn counters(&self) -> Vec<(&'static str, u64)> {
+        vec![("tables", self.0.count())]
+    }
+
+    fn pass_times(&self) -> Vec<PassTime> {
+        Vec::new()
+    }
+}

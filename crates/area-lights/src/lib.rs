@@ -1,0 +1,21 @@
+//! What methods on lights with a surface share: the frames that they take, and the gather of their
+//! lights over all pixels.
+//!
+//! [`AreaLights`] makes a [`Method`](manylights_method::Method) of an [`Estimator`].
+#![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
+
+mod area_lights;
+mod frame;
+mod gather;
+mod gather_shader;
+mod run;
+
+/// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same
+/// estimator gives another picture.
+pub const AREA_LIGHTS_VERSION: u32 = 1;
+
+pub use area_lights::{AreaLights, BANDS, Estimator, SceneTables};
+pub use frame::AreaLightFrame;
+pub use gather::{AreaGather, LightBatches};
+pub use gather_shader::{EstimatorShader, GatherShader};
+pub use run::AreaLightRun;

@@ -1,0 +1,15 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod bake;
+mod common;
+mod floors;
+mod gather;
+mod hard_cases;
+mod products;
+mod scenes;
+mod shaders;
+mod tables;
+mod truth;
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;
