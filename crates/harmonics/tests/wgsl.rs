@@ -5,9 +5,11 @@ use std::f64::consts::{PI, TAU};
 
 use crate::straight_line::{Numbers, run};
 use crate::unit::{normalised, unit};
+use manylights_harmonics::clamped_cosine::{Folded, Local};
+use manylights_harmonics::product::Product;
 use manylights_harmonics::projection::fibonacci;
 use manylights_harmonics::quadrature::gauss_legendre;
-use manylights_harmonics::wgsl::{Function, module};
+use manylights_harmonics::wgsl::{CUT, Function, module};
 use manylights_harmonics::zonal::{Cap, cap_rate_stable, cap_stable};
 use manylights_harmonics::{Basis, MAX_BANDS, count, even_index, index};
 use proptest::prelude::*;
@@ -142,6 +144,26 @@ fn cap_scales_keep_six_digits_in_f32() {
     println!("scales {:.1e}, rates {:.1e}", worst[0], worst[1]);
 }
 
+/// Down to the hemisphere, of which a rounded sine is 1 long before.
+#[test]
+fn cap_scales_of_sine_and_cosine_keep_six_digits_in_f32() {
+    let wgsl = Function::CapScalesOf.generate(MAX_BANDS).wgsl;
+    let angles = (1..=90).map(|degrees| f64::from(degrees).to_radians());
+    let near_hemisphere = [1e-2, 1e-3, 1e-5, 0.0].map(|gap| std::f64::consts::FRAC_PI_2 - gap);
+    for angle in angles.chain([1e-4, 1e-8]).chain(near_hemisphere) {
+        let [sine, cosine] = [angle.sin(), angle.cos().max(0.0)];
+        let [s, c] = [sine, cosine].map(|value| vec![value as f32]);
+        let result = run(&wgsl, &[("sine", s), ("cosine", c)]);
+        let mut truth = vec![0.0; MAX_BANDS];
+        cap_stable(Cap { sine, cosine }, &mut truth);
+        let largest = truth.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        for (l, (value, truth)) in result.iter().zip(&truth).enumerate() {
+            let error = (f64::from(*value) - truth).abs();
+            assert!(error <= 1e-6 * largest, "band {l} at {angle}: {error:e}");
+        }
+    }
+}
+
 fn half(bands: usize, values: &[f32]) -> Numbers {
     (0..bands).flat_map(|l| (0..=l).map(move |m| values[index(l, m as isize)])).collect()
 }
@@ -222,6 +244,39 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(8))]
+
+    #[test]
+    fn products_are_those_of_the_tables(
+        (bands, a, b) in (1..=6_usize).prop_flat_map(|bands| (
+            Just(bands), coefficients(bands), coefficients(bands),
+        )),
+    ) {
+        let [wide_a, wide_b] =
+            [&a, &b].map(|list| list.iter().map(|&value| f64::from(value)).collect::<Vec<_>>());
+        let mut truth = vec![0.0; count(bands)];
+        Product::new(bands).apply(&wide_a, &wide_b, &mut truth);
+        let general = Function::Product.generate(bands).wgsl;
+        let arguments = [("a", a.clone()), ("b", b.clone())];
+        prop_assert!(difference(&run(&general, &arguments), &truth) <= 1e-5);
+        for (function, of) in
+            [(Function::CosineProduct, bands), (Function::CosineProductCut, bands.min(CUT))]
+        {
+            let normal = &b[..count(of)];
+            Folded::new(bands, of).apply(&wide_a, &wide_b[..count(of)], &mut truth);
+            let arguments = [("a", a.clone()), ("normal", normal.to_vec())];
+            prop_assert!(difference(&run(&function.generate(bands).wgsl, &arguments), &truth) <= 1e-5);
+        }
+    }
+}
+
+/// Largest |value − truth|; both are below 10.
+fn difference(values: &[f32], truth: &[f64]) -> f64 {
+    let pairs = values.iter().zip(truth);
+    pairs.map(|(&value, truth)| (f64::from(value) - truth).abs()).fold(0.0, f64::max)
+}
+
 #[test]
 fn modules_are_the_same_text_for_the_same_set() {
     let one = module(3, &[Function::ZonalDot, Function::Evaluate]);
@@ -240,4 +295,10 @@ fn operations_of_few_bands() {
     assert_eq!(cost(Function::Evaluate, 2), (0, 3));
     assert_eq!(cost(Function::Dot, 5), (24, 25));
     assert_eq!(cost(Function::DotEven, 5), (14, 15));
+    // Of the matrix of 4.6 a multiplication a non-zero, and an addition less a row.
+    for bands in [3, 5, 9] {
+        let non_zeros = Local::<f64>::new(bands).non_zeros();
+        let expected = (non_zeros - count(bands), non_zeros);
+        assert_eq!(cost(Function::ClampedCosine, bands), expected);
+    }
 }

@@ -1,17 +1,16 @@
 //! The coefficients of caps in a table (JFIG 4.2), over the versine 1 − cos a of the half-angle.
 //!
 //! What is tabulated is c_l/sin² a: for l ≥ 1 a polynomial of degree l − 1 in the versine, π at 0 for all
-//! l, so that small lights keep their digits, and linear interpolation is left with h²/8 of its second
-//! derivative. Over π, which all of them are largest at, that is at most 1.2e-5 (5 bands), 6.7e-5 (7),
-//! 2.3e-4 (9) and 2.1e-3 (15): see `tests/tables.rs`. The sine as abscissa would not do, whose square root
-//! 1 − cos a has no bounded derivative at the hemisphere.
+//! l, so that small lights keep their digits. Linear interpolation is left with h²/8 of its second derivative:
+//! of π sin² a, the largest coefficient of a small light, 1.3e-6 (5 bands), 7.2e-6 (7), 2.3e-5 (9), 2.1e-4 (15)
+//! (`tests/tables.rs`). Over the sine it would err more: the cosine is a root of it at the hemisphere.
 
 use std::f64::consts::PI;
 
 use manylights_harmonics::zonal::{Cap, cap_stable};
 
-/// Versines in the table, from 0 to 1: 12 KiB of 9 bands.
-pub const NODES: usize = 256;
+/// Versines in the table, from 0 to 1: 48 KiB of 9 bands.
+pub const NODES: usize = 1024;
 
 /// The table that [`module`] reads, of `vec4f`.
 pub(crate) const COEFFICIENTS: &str = "coefficients";

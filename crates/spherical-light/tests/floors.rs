@@ -9,7 +9,9 @@ const BANDS: [usize; 4] = [5, 7, 9, 15];
 const HALF_ANGLES: [f64; 4] = [0.05, 0.15, 0.4, 0.8];
 
 /// Roughness, degrees of the view, then for each number of bands the rms error over the rms truth at each
-/// half-angle.
+/// half-angle. That other code has 0.05 0.02 for 0.044 0.015, 0.05 0.04 0.02 for 0.045 0.031 0.014, and 0.05 0.03 for
+/// 0.040 0.018: of the smallest light on the roughest surfaces, where the horizon alone errs. Five times the
+/// directions and four times the nodes of the truth leave these digits as they are.
 const FLOORS: [(f32, f64, [[f64; 4]; 4]); 7] = [
     (
         0.3,
@@ -57,8 +59,8 @@ const FLOORS: [(f32, f64, [[f64; 4]; 4]); 7] = [
         [
             [0.17, 0.15, 0.07, 0.02],
             [0.08, 0.07, 0.01, 0.006],
-            [0.05, 0.03, 0.004, 0.002],
-            [0.02, 0.006, 0.001, 0.0],
+            [0.044, 0.03, 0.004, 0.002],
+            [0.015, 0.006, 0.001, 0.0],
         ],
     ),
     (
@@ -66,9 +68,9 @@ const FLOORS: [(f32, f64, [[f64; 4]; 4]); 7] = [
         30.0,
         [
             [0.08, 0.06, 0.02, 0.007],
-            [0.05, 0.03, 0.005, 0.002],
-            [0.04, 0.02, 0.003, 0.001],
-            [0.02, 0.006, 0.001, 0.0],
+            [0.045, 0.03, 0.005, 0.002],
+            [0.031, 0.02, 0.003, 0.001],
+            [0.014, 0.006, 0.001, 0.0],
         ],
     ),
     (
@@ -77,8 +79,8 @@ const FLOORS: [(f32, f64, [[f64; 4]; 4]); 7] = [
         [
             [0.09, 0.08, 0.03, 0.009],
             [0.06, 0.04, 0.007, 0.003],
-            [0.05, 0.03, 0.005, 0.002],
-            [0.03, 0.007, 0.001, 0.0],
+            [0.040, 0.03, 0.005, 0.002],
+            [0.018, 0.007, 0.001, 0.0],
         ],
     ),
 ];

@@ -4,13 +4,14 @@ use crate::common::{
     DIRECT, GPU, SETTINGS, all_settings, dielectric, glossy, metal, oblique, render, scene,
     spheres, spiral, surface,
 };
+use crate::tensor;
 use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
-use manylights_scene::Brdf;
+use manylights_scene::{Brdf, Measured};
 use manylights_spherical_light::{Coefficients, Extent, Settings, SphereLight, gather, oracle};
 
 /// Receivers around the origin.
-fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
+pub(crate) fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
     (0..512)
         .map(|i| {
             let place = spiral(i, 512, -1.0).as_vec3() * (0.2 + 0.01 * i as f32);
@@ -22,7 +23,7 @@ fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
 }
 
 /// Largest difference to the oracle over all receivers, relative to the largest true radiance.
-fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> f64 {
+pub(crate) fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> f64 {
     let camera = oblique(Vec3::new(0.3, 7.0, 0.2));
     let surfaces = receivers(brdf, camera);
     let pixels = gather(&GPU, &surfaces, camera, lights, settings).expect("a gather");
@@ -38,13 +39,22 @@ fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> f64 {
     worst / peak
 }
 
-fn sphere(radius: f32) -> SphereLight {
+/// A synthetic measurement with a lobe of its own for each channel.
+fn measured() -> Brdf {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("synthetic.bsdf");
+    std::fs::write(&path, tensor::satin()).expect("can write");
+    Measured::load(&path).expect("valid").brdf()
+}
+
+pub(crate) fn sphere(radius: f32) -> SphereLight {
     SphereLight::new(oblique(Vec3::new(0.02, 0.05, 0.01)), radius, Vec3::new(1.0, 0.7, 0.3))
 }
 
 #[test]
 fn every_lobe_in_every_setting() {
-    let brdfs = [Brdf::lambert(Vec3::splat(0.7)), glossy(0.4), metal(0.3), dielectric(0.5)];
+    let lambert = Brdf::lambert(Vec3::splat(0.7));
+    let brdfs = [lambert, glossy(0.4), metal(0.3), dielectric(0.5), measured()];
     for brdf in brdfs {
         for settings in all_settings() {
             for bands in [1, 2, 5, 9, 15] {
@@ -104,7 +114,8 @@ fn linear_in_the_lights() {
         gather(&GPU, &surfaces, camera, lights, &SETTINGS).expect("a gather")
     };
     let once = of(&[sphere(0.3)]);
-    let bright = SphereLight { radiance: 2.0 * sphere(0.3).radiance, ..sphere(0.3) };
+    let mut bright = sphere(0.3);
+    bright.radiance *= 2.0;
     let twice = of(&[bright]);
     let many = of(&[sphere(0.3); 2048]);
     let peak = once.as_flattened().iter().fold(0.0_f32, |peak, value| peak.max(value.abs()));

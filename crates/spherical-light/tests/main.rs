@@ -5,7 +5,11 @@ mod common;
 mod floors;
 mod gather;
 mod hard_cases;
+mod products;
 mod scenes;
 mod shaders;
 mod tables;
 mod truth;
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;

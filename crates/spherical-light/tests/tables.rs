@@ -24,7 +24,7 @@ fn worst(bands: usize) -> f64 {
 /// What the head of `cap_table.rs` states.
 #[test]
 fn interpolation_errs_as_stated() {
-    for (bands, stated) in [(5, 0.0), (7, 0.0), (9, 0.0), (15, 0.0)] {
+    for (bands, stated) in [(5, 1.3e-6), (7, 7.2e-6), (9, 2.3e-5), (15, 2.1e-4)] {
         let worst = worst(bands);
         println!("{bands} bands: {worst:.2e}");
         assert!(worst <= stated && worst > 0.8 * stated, "{bands} bands: {worst:e}");
