@@ -2,7 +2,7 @@
 //!
 //! Radiance through pixel centres, for the transports of
 //! [`Transport`](manylights_scene::Transport): direct light of point-like lights is summed exactly;
-//! emissive triangles and all bounces are sampled. [`direct_light`] and
+//! lights with a surface and all bounces are sampled. [`direct_light`] and
 //! [`seen_emission`] are exact parts on their own.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 

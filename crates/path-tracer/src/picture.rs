@@ -103,8 +103,7 @@ impl<'a> Picture<'a> {
         let direction = self.camera.direction(index % width, index / width, self.resolution);
         let point = self.tracer.primary(hit, direction);
         let mut walk = self.tracer.walk(Sampler::new(self.seed, index, slice));
-        let samples = 0..self.slice_samples;
-        let sum: Vec3 = samples.map(|sample| walk.sample(&point, -direction, sample)).sum();
+        let sum = walk.samples(&point, -direction, self.slice_samples);
         (sum / self.slice_samples as f32, walk.rays)
     }
 

@@ -1,5 +1,6 @@
 //! All tests of the crate in one executable: each of its own links everything anew.
 
+mod area_lights;
 mod area_oracle;
 mod cache;
 mod determinism;

@@ -4,7 +4,9 @@
 //! references of, and what methods that sample incoming radiance share.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
+mod area_lights;
 mod beams;
+pub mod closed_form;
 mod emitters;
 mod illumination;
 mod lobe;

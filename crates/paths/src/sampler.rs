@@ -54,6 +54,12 @@ impl Sampler {
     }
 }
 
+/// Numbers in [0, 1) that depend on `index` alone.
+pub(crate) fn rotation(index: u32) -> [f32; 2] {
+    let first = hash(index ^ 0x2545_f491);
+    [unit(first), unit(hash(first ^ 0x9e37_79b9))]
+}
+
 /// The upper 24 bits as a number in [0, 1).
 fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / (1 << 24) as f32)

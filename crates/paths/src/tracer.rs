@@ -1,10 +1,11 @@
 //! Radiance along light paths.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use manylights_scene::bvh::{Bvh, Hit, Ray};
 use manylights_scene::{Light, Scene, SurfacePoint};
 use manylights_scene::{Transport, Visibility};
 
+use crate::area_lights::{AreaLights, AreaLit};
 use crate::beams::Beams;
 use crate::emitters::Emitters;
 use crate::illumination::{Lit, area_density, beam_weight, may_arrive, reflected};
@@ -22,12 +23,18 @@ const GROUP_EMITTER: u32 = 0;
 const GROUP_BEAM: u32 = 1;
 /// First of the groups of bounces.
 const GROUP_BOUNCES: u32 = 2;
+/// Group of sample points for lights that are no surfaces, above all bounces.
+const GROUP_AREA_LIGHT: u32 = u32::MAX;
+/// Group of sample points for directions that look for them.
+const GROUP_AREA_LIGHT_SEARCH: u32 = u32::MAX - 1;
 
 /// A scene made ready for one transport.
 pub struct Tracer<'a> {
     scene: &'a Scene,
     bvh: Bvh,
     emitters: Emitters,
+    /// Of direct light: those that are no surfaces, and where visibility is ignored all others.
+    area_lights: AreaLights,
     beams: Option<Beams<'a>>,
     /// Whether the camera sees emission.
     emission: bool,
@@ -62,6 +69,7 @@ impl<'a> Tracer<'a> {
             scene,
             bvh: Bvh::build(scene),
             emitters: Emitters::new(scene),
+            area_lights: area_lights(scene, transport),
             beams: if last > 0 { Beams::new(scene) } else { None },
             emission: transport == Transport::All,
             exact,
@@ -74,7 +82,7 @@ impl<'a> Tracer<'a> {
     /// Whether there is anything to sample: direct light from point-like lights is exact.
     pub fn is_random(&self) -> bool {
         let lit = !self.scene.lights.is_empty() && self.last > 0;
-        lit || !self.emitters.is_empty()
+        lit || !self.emitters.is_empty() || !self.area_lights.is_empty()
     }
 
     /// The first hit along a ray.
@@ -120,18 +128,30 @@ impl Walk<'_> {
         radiance
     }
 
-    /// One sample of the remaining radiance.
-    pub fn sample(&mut self, point: &SurfacePoint, to_viewer: Vec3, index: u32) -> Vec3 {
+    /// The sum of the first `count` samples of the remaining radiance, at most [`SLICE`](crate::SLICE).
+    pub fn samples(&mut self, point: &SurfacePoint, to_viewer: Vec3, count: u32) -> Vec3 {
+        if !self.tracer.area_lights.are_finite() {
+            return Vec3::NAN;
+        }
+        match (self.tracer.visibility, self.tracer.last) {
+            (Visibility::Ignored, 0) => self.unhidden(point, to_viewer, count),
+            _ => (0..count).map(|index| self.sample(point, to_viewer, index)).sum(),
+        }
+    }
+
+    fn sample(&mut self, point: &SurfacePoint, to_viewer: Vec3, index: u32) -> Vec3 {
         let beam = match &self.tracer.beams {
             Some(beams) => self.beam(beams, point, to_viewer, index),
             None => Vec3::ZERO,
         };
-        let path = match (self.tracer.visibility, self.tracer.last) {
-            (Visibility::Traced, _) => self.path(*point, to_viewer, index),
-            (Visibility::Ignored, 0) => self.unhidden(point, to_viewer, index),
-            (Visibility::Ignored, _) => self.through(point, to_viewer, index),
+        let path = match self.tracer.visibility {
+            Visibility::Traced => self.path(*point, to_viewer, index),
+            Visibility::Ignored => self.through(point, to_viewer, index),
         };
-        path + beam
+        if self.tracer.area_lights.is_empty() {
+            return path + beam;
+        }
+        path + beam + self.behind_surfaces(point, to_viewer, index)
     }
 
     /// A path from the camera.
@@ -150,8 +170,7 @@ impl Walk<'_> {
             let counts = emitters && depth >= tracer.first;
             let searches = counts && tracer.searches(&point);
             if counts {
-                radiance += throughput
-                    * self.emitter(&lobes, &point, Visibility::Traced, emitter_numbers, searches);
+                radiance += throughput * self.emitter(&lobes, &point, emitter_numbers, searches);
             }
             if depth == tracer.last && !searches {
                 break;
@@ -198,32 +217,55 @@ impl Walk<'_> {
             });
             if !tracer.emitters.is_empty() {
                 let lobes = Lobes::new(&next, -scatter.direction);
-                radiance += self.emitter(&lobes, &next, Visibility::Traced, next_numbers, false);
+                radiance += self.emitter(&lobes, &next, next_numbers, false);
             }
         });
         scatter.weight * radiance
     }
 
-    /// Direct illumination by emissive triangles that nothing hides, other emissive triangles
-    /// included.
-    fn unhidden(&mut self, point: &SurfacePoint, to_viewer: Vec3, index: u32) -> Vec3 {
-        let tracer = self.tracer;
-        if tracer.emitters.is_empty() {
-            return Vec3::ZERO;
-        }
+    /// The sum of `count` samples of the direct light of all lights with a surface, which nothing hides.
+    fn unhidden(&self, point: &SurfacePoint, to_viewer: Vec3, count: u32) -> Vec3 {
         let lobes = Lobes::new(point, to_viewer);
-        let searches = tracer.searches(point);
-        let numbers = self.sampler.group(GROUP_EMITTER, index);
-        let mut radiance = self.emitter(&lobes, point, Visibility::Ignored, numbers, searches);
-        let (numbers, _) = self.bounce_numbers(0, index);
-        let Some(scatter) = lobes.sample(numbers).filter(|_| searches) else { return radiance };
-        let ray = Ray::new(self.origin(point, scatter.direction), scatter.direction);
-        self.rays += 1;
-        tracer.bvh.all_hits(&ray, |hit| {
-            let next = tracer.scene.surface(hit.triangle, hit.u, hit.v, scatter.direction);
-            radiance += scatter.weight * tracer.found(&scatter, point, &next) * next.emission;
-        });
-        radiance
+        let sampler = self.sampler;
+        let numbers: Vec<_> =
+            (0..count).map(|index| sampler.group(GROUP_AREA_LIGHT, index)).collect();
+        // A Lambertian lobe varies too little over the directions of a light for its own to help.
+        let searching = if point.brdf.has_specular() { 0..count } else { 0..0 };
+        let scatters: Vec<_> = searching
+            .map(|index| lobes.sample(sampler.group(GROUP_AREA_LIGHT_SEARCH, index)))
+            .collect();
+        self.tracer.area_lights.unhidden(&lobes, point, &numbers, &scatters).as_vec3()
+    }
+
+    /// One sample of the direct light of lights that are no surfaces, behind those that are: one of the
+    /// lights, and one direction drawn from the reflectance.
+    fn behind_surfaces(&mut self, point: &SurfacePoint, to_viewer: Vec3, index: u32) -> Vec3 {
+        let lights = &self.tracer.area_lights;
+        let lobes = Lobes::new(point, to_viewer);
+        let searches = point.brdf.has_specular();
+        let numbers = self.sampler.group(GROUP_AREA_LIGHT, index);
+        let mut radiance = DVec3::ZERO;
+        if let Some(lit) = lights.sample(&lobes, point, numbers, searches) {
+            radiance += self.arriving(point, &lit);
+        }
+        let numbers = self.sampler.group(GROUP_AREA_LIGHT_SEARCH, index);
+        if let Some(scatter) = lobes.sample(numbers).filter(|_| searches) {
+            for lit in lights.found(point, &scatter) {
+                radiance += self.arriving(point, &lit);
+            }
+        }
+        radiance.as_vec3()
+    }
+
+    /// What surfaces let through. A light that lies on one is in front of it: the ray ends before.
+    fn arriving(&mut self, point: &SurfacePoint, lit: &AreaLit) -> DVec3 {
+        if lit.radiance == DVec3::ZERO || !may_arrive(point, lit.direction, Visibility::Traced) {
+            return DVec3::ZERO;
+        }
+        let reach = lit.distance - self.tracer.bvh.shift();
+        let target = point.position + reach * lit.direction;
+        let ray = Ray::between(self.origin(point, lit.direction), target);
+        if reach > 0.0 && self.occluded(&ray) { DVec3::ZERO } else { lit.radiance }
     }
 
     /// A path of one bounce that starts at a light.
@@ -285,7 +327,6 @@ impl Walk<'_> {
         &mut self,
         lobes: &Lobes<'_>,
         point: &SurfacePoint,
-        visibility: Visibility,
         numbers: [f32; 2],
         shared: bool,
     ) -> Vec3 {
@@ -298,7 +339,7 @@ impl Walk<'_> {
         }
         let direction = offset / distance2.sqrt();
         let cos_emitter = -emitter.normal.dot(direction);
-        if cos_emitter <= 0.0 || !may_arrive(point, direction, visibility) {
+        if cos_emitter <= 0.0 || !may_arrive(point, direction, Visibility::Traced) {
             return Vec3::ZERO;
         }
         let reflected = lobes.reflect(direction);
@@ -306,9 +347,7 @@ impl Walk<'_> {
             return Vec3::ZERO;
         }
         let target = self.tracer.bvh.shifted(emitter.position, emitter.normal);
-        if visibility == Visibility::Traced
-            && self.occluded(&Ray::between(self.origin(point, direction), target))
-        {
+        if self.occluded(&Ray::between(self.origin(point, direction), target)) {
             return Vec3::ZERO;
         }
         let geometry = cos_emitter / distance2;
@@ -390,5 +429,19 @@ impl Walk<'_> {
     fn origin(&self, point: &SurfacePoint, direction: Vec3) -> Vec3 {
         let side = point.geometric_normal.dot(direction).signum();
         self.tracer.bvh.shifted(point.position, side * point.geometric_normal)
+    }
+}
+
+/// The lights with a surface that a transport samples by solid angle.
+fn area_lights(scene: &Scene, transport: Transport) -> AreaLights {
+    let analytic = scene.area_lights.iter().map(|light| (*light, None));
+    match transport {
+        Transport::Direct { visibility: Visibility::Traced } => AreaLights::new(analytic),
+        Transport::Direct { visibility: Visibility::Ignored } => {
+            let none = std::iter::repeat_n(None, scene.area_lights.len());
+            let triangles = none.chain(scene.emissive_triangles().map(Some));
+            AreaLights::new(scene.all_area_lights().zip(triangles))
+        }
+        _ => AreaLights::default(),
     }
 }
