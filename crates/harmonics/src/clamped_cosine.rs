@@ -67,6 +67,11 @@ impl<R: Real> Folded<R> {
         self.entries.len()
     }
 
+    /// Bands of the cosine.
+    pub fn cosine_bands(&self) -> usize {
+        self.cosine_bands
+    }
+
     /// Writes the light under the cosine; `normal` holds the Y_lm of the normal for the cosine's
     /// bands, the other slices bands² coefficients.
     pub fn apply(&self, light: &[R], normal: &[R], product: &mut [R]) {

@@ -5,9 +5,11 @@ use std::f64::consts::{PI, TAU};
 
 use crate::straight_line::{Numbers, run};
 use crate::unit::{normalised, unit};
+use manylights_harmonics::clamped_cosine::{Folded, Local};
+use manylights_harmonics::product::Product;
 use manylights_harmonics::projection::fibonacci;
 use manylights_harmonics::quadrature::gauss_legendre;
-use manylights_harmonics::wgsl::{Function, module};
+use manylights_harmonics::wgsl::{CUT, Function, module};
 use manylights_harmonics::zonal::{Cap, cap_rate_stable, cap_stable};
 use manylights_harmonics::{Basis, MAX_BANDS, count, even_index, index};
 use proptest::prelude::*;
@@ -242,6 +244,39 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(8))]
+
+    #[test]
+    fn products_are_those_of_the_tables(
+        (bands, a, b) in (1..=6_usize).prop_flat_map(|bands| (
+            Just(bands), coefficients(bands), coefficients(bands),
+        )),
+    ) {
+        let [wide_a, wide_b] =
+            [&a, &b].map(|list| list.iter().map(|&value| f64::from(value)).collect::<Vec<_>>());
+        let mut truth = vec![0.0; count(bands)];
+        Product::new(bands).apply(&wide_a, &wide_b, &mut truth);
+        let general = Function::Product.generate(bands).wgsl;
+        let arguments = [("a", a.clone()), ("b", b.clone())];
+        prop_assert!(difference(&run(&general, &arguments), &truth) <= 1e-5);
+        for (function, of) in
+            [(Function::CosineProduct, bands), (Function::CosineProductCut, bands.min(CUT))]
+        {
+            let normal = &b[..count(of)];
+            Folded::new(bands, of).apply(&wide_a, &wide_b[..count(of)], &mut truth);
+            let arguments = [("a", a.clone()), ("normal", normal.to_vec())];
+            prop_assert!(difference(&run(&function.generate(bands).wgsl, &arguments), &truth) <= 1e-5);
+        }
+    }
+}
+
+/// Largest |value − truth|; both are below 10.
+fn difference(values: &[f32], truth: &[f64]) -> f64 {
+    let pairs = values.iter().zip(truth);
+    pairs.map(|(&value, truth)| (f64::from(value) - truth).abs()).fold(0.0, f64::max)
+}
+
 #[test]
 fn modules_are_the_same_text_for_the_same_set() {
     let one = module(3, &[Function::ZonalDot, Function::Evaluate]);
@@ -260,4 +295,10 @@ fn operations_of_few_bands() {
     assert_eq!(cost(Function::Evaluate, 2), (0, 3));
     assert_eq!(cost(Function::Dot, 5), (24, 25));
     assert_eq!(cost(Function::DotEven, 5), (14, 15));
+    // Of the matrix of 4.6 a multiplication a non-zero, and an addition less a row.
+    for bands in [3, 5, 9] {
+        let non_zeros = Local::<f64>::new(bands).non_zeros();
+        let expected = (non_zeros - count(bands), non_zeros);
+        assert_eq!(cost(Function::ClampedCosine, bands), expected);
+    }
 }

@@ -12,6 +12,10 @@ mod lobe_shape;
 pub mod lobe_wgsl;
 pub mod lobes;
 mod materials;
+pub mod mirror;
+mod product;
+pub mod product_oracle;
+mod product_wgsl;
 mod receiver;
 mod tables;
 pub mod zonal;
@@ -25,6 +29,7 @@ pub use lobe_quadrature::{Fixed, LobeQuadrature};
 pub use lobe_shape::LobeShape;
 pub use lobe_wgsl::LOBES;
 pub use materials::{Materials, ReceiverKinds, single};
+pub use product::{CosineProduct, Diffuse};
 pub use receiver::Receiver;
 pub use tables::Tables;
 
@@ -36,9 +41,12 @@ pub const SHAPES: &str = "shapes";
 /// - `receiver`: a pixel's reflectance as gathers keep it. It imports the modules that
 ///   [`lobe_wgsl::module`] and [`diffuse::module`] make, and the tables [`SHAPES`] and [`LOBES`];
 /// - `reflection`: its products with a cap of light;
+/// - `product`: with any light that is multiplied with the cosine first. It imports what
+///   [`CosineProduct::modules`] makes;
 /// - `arc_sine`: to 1e-7.
-pub const MODULES: [(&str, &str); 3] = [
+pub const MODULES: [(&str, &str); 4] = [
     ("receiver", include_str!("shaders/receiver.wesl")),
     ("reflection", include_str!("shaders/reflection.wesl")),
+    ("product", include_str!("shaders/product.wesl")),
     ("arc_sine", include_str!("shaders/arc_sine.wesl")),
 ];

@@ -22,14 +22,21 @@ pub struct ReceiverKinds {
 
 impl ReceiverKinds {
     /// The switches of [`crate::MODULES`], for a linker.
-    pub fn features(self, form: Form) -> [(&'static str, bool); 5] {
+    pub fn features(self, form: Form) -> [(&'static str, bool); 6] {
         [
             ("glossy_receivers", self.specular),
             ("colored", self.colored && !self.measured),
             ("rgb_lobes", self.measured),
             ("zonal", form == Form::Zonal),
+            ("mirror", false),
             ("exact_fresnel", self.exact_fresnel),
         ]
+    }
+
+    /// The same for receivers with lobes about the mirror direction, which products of light and cosine meet
+    /// ([`crate::CosineProduct`]).
+    pub fn mirror_features(self) -> [(&'static str, bool); 6] {
+        self.features(Form::Full).map(|(name, on)| (name, on || name == "mirror"))
     }
 
     /// Scalar lobes that a pixel is multiplied with.
@@ -102,6 +109,12 @@ impl Materials {
             Form::Full => single(tables.lobes(shape, bands, damping).values()),
             Form::Zonal => single(tables.zonal(shape, bands, damping).values()),
         };
+        self.shapes.iter().flat_map(lobes).collect()
+    }
+
+    /// The same of lobes about the mirror direction.
+    pub fn mirror_records(&self, tables: &Tables, bands: usize) -> Vec<[f32; 2]> {
+        let lobes = |&shape: &LobeShape| single(tables.mirror(shape, bands).values());
         self.shapes.iter().flat_map(lobes).collect()
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::cache::Cache;
 use crate::lobes::{LobeTable, NODES};
+use crate::mirror::MirrorTable;
 use crate::zonal::ZonalTable;
 use crate::{Damping, LobeShape};
 
@@ -14,6 +15,8 @@ pub struct Tables {
     plain: Cache<Vec<Arc<LobeTable>>>,
     windowed: Cache<LobeTable>,
     zonal: Cache<ZonalTable>,
+    /// As `plain`.
+    mirror: Cache<Vec<Arc<MirrorTable>>>,
 }
 
 impl Default for Tables {
@@ -25,7 +28,12 @@ impl Default for Tables {
 impl Tables {
     /// Nothing made yet.
     pub const fn new() -> Self {
-        Self { plain: Cache::new(), windowed: Cache::new(), zonal: Cache::new() }
+        Self {
+            plain: Cache::new(),
+            windowed: Cache::new(),
+            zonal: Cache::new(),
+            mirror: Cache::new(),
+        }
     }
 
     /// The one that lasts as long as the process.
@@ -53,9 +61,18 @@ impl Tables {
         self.zonal.get((shape, bands, damping), make)
     }
 
+    /// The circular lobes about the mirror direction, without the cosine.
+    pub fn mirror(&self, shape: LobeShape, bands: usize) -> Arc<MirrorTable> {
+        let (first, place) = shape.place();
+        let all = self.mirror.get((first, bands, Damping::None), || {
+            MirrorTable::integrate(first, bands).into_iter().map(Arc::new).collect()
+        });
+        all[place].clone()
+    }
+
     /// How many were made; those of all shapes of a reflectance are made together and are one.
     pub fn count(&self) -> u64 {
-        self.plain.count() + self.windowed.count() + self.zonal.count()
+        self.plain.count() + self.windowed.count() + self.zonal.count() + self.mirror.count()
     }
 }
 
@@ -70,5 +87,12 @@ impl ZonalTable {
     /// Those of [`Tables::shared`].
     pub fn of(shape: impl Into<LobeShape>, bands: usize, damping: Damping) -> Arc<Self> {
         Tables::shared().zonal(shape.into(), bands, damping)
+    }
+}
+
+impl MirrorTable {
+    /// Those of [`Tables::shared`].
+    pub fn of(shape: impl Into<LobeShape>, bands: usize) -> Arc<Self> {
+        Tables::shared().mirror(shape.into(), bands)
     }
 }

@@ -35,6 +35,14 @@ impl AreaLight {
         }
     }
 
+    /// The same surface with another radiance, W·m⁻²·sr⁻¹.
+    pub(crate) fn with_radiance(self, radiance: Vec3) -> Self {
+        match self {
+            Self::Sphere { center, radius, .. } => Self::Sphere { center, radius, radiance },
+            Self::Triangle { corners, .. } => Self::Triangle { corners, radiance },
+        }
+    }
+
     /// Of the side that shines, m².
     pub fn area(&self) -> f32 {
         match *self {

@@ -14,6 +14,7 @@ pub mod camera;
 mod content;
 mod error;
 mod gltf;
+mod image_file;
 pub mod light;
 mod load;
 mod lobe;

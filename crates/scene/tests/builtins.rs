@@ -8,7 +8,7 @@ use glam::{Vec3, vec3};
 use manylights_scene::builtin::integrating_sphere::{ALBEDO, INTENSITY, RADIUS};
 use manylights_scene::builtin::{BUILTINS, Builtin};
 use manylights_scene::bvh::{Bvh, Ray};
-use manylights_scene::{Light, Scene, load};
+use manylights_scene::{AreaLight, Light, Scene, load};
 
 fn make(name: &str) -> Scene {
     load(name, None).expect("a built-in scene")
@@ -20,7 +20,8 @@ fn all_keep_the_promises_of_a_scene() {
         let scene = make();
         common::check_invariants(&scene, name);
         assert_eq!(&scene.name, name);
-        assert!(!about.is_empty() && !scene.lights.is_empty());
+        assert!(!about.is_empty());
+        assert!(!scene.lights.is_empty() || !scene.area_lights.is_empty(), "{name} is dark");
         // Made by code, so the winding agrees with the normals everywhere.
         for (i, triangle) in scene.triangles.iter().enumerate() {
             let front = scene.geometric_normal(i as u32);
@@ -40,6 +41,7 @@ fn triangle_budgets() {
     assert_eq!(count("cornell-glossy"), count("cornell"));
     assert!((2_000..8_000).contains(&count("atrium")), "a few thousand");
     assert!((5_000..20_000).contains(&count("trio")));
+    assert_eq!(count("receivers"), 2 + 8 * 20 * 4_usize.pow(4));
 }
 
 /// Every edge is walked once in each direction: a closed, consistently wound surface.
@@ -129,6 +131,38 @@ fn materials_are_what_the_scenes_are_for() {
     let [a, b, c] = roughness("trio")[..] else { panic!("three glossy materials") };
     assert!(a != b && b != c && c != a);
     assert_eq!(make("cornell-glossy").cameras.len(), 3);
+    let mut rough = roughness("receivers");
+    rough.sort_by(f32::total_cmp);
+    assert_eq!(rough, [0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0]);
+    let scene = make("receivers");
+    let lambertian = scene.materials.iter().filter(|material| !material.has_specular());
+    assert_eq!(lambertian.count(), 2, "a sphere and the floor");
+}
+
+/// None of the receivers touches another, a light or the camera; no light reaches through the floor.
+#[test]
+fn receivers_stand_free() {
+    let scene = make("receivers");
+    let mut balls: Vec<(Vec3, f32)> = Vec::new();
+    for material in 1..scene.materials.len() as u32 {
+        let of_it = scene.triangles.iter().filter(|triangle| triangle.material == material);
+        let corners = of_it.flat_map(|triangle| triangle.vertices);
+        let corners: Vec<Vec3> = corners.map(|v| scene.vertices[v as usize].position).collect();
+        let low = corners.iter().copied().reduce(Vec3::min).expect("a receiver");
+        let high = corners.iter().copied().reduce(Vec3::max).expect("a receiver");
+        balls.push((low.midpoint(high), 0.5 * (high.y - low.y)));
+    }
+    assert_eq!(balls.len(), 8);
+    assert!(balls.iter().all(|(center, radius)| (center.y - radius).abs() < 1e-6), "on the floor");
+    for light in &scene.area_lights {
+        let AreaLight::Sphere { center, radius, .. } = *light else { panic!("{light:?}") };
+        balls.push((center, radius));
+    }
+    balls.push((scene.cameras[0].position, 0.0));
+    for (i, (a, r)) in balls.iter().enumerate() {
+        assert!(a.y >= r - 1e-6, "{a} is in the floor");
+        assert!(balls[..i].iter().all(|(b, s)| a.distance(*b) > r + s), "{a} touches another");
+    }
 }
 
 #[test]

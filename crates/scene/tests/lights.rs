@@ -1,8 +1,8 @@
 //! Primary lights against what `KHR_lights_punctual` and the inverse square say, in numbers.
 
 use glam::Vec3;
-use manylights_scene::Light;
 use manylights_scene::light::spot_falloff;
+use manylights_scene::{AreaLight, Light, content_hash, load};
 
 fn assert_close(found: f32, expected: f32) {
     assert!((found - expected).abs() <= 2e-6 * expected, "{found}, expected {expected}");
@@ -41,4 +41,30 @@ fn illumination_of_a_point() {
     let at = parallel.illuminate(point);
     assert_eq!((at.to_light, at.irradiance), (-direction, intensity));
     assert!(at.distance.is_infinite());
+}
+
+/// A picture depends on every number of a light with a surface, and on which light has it.
+#[test]
+fn the_content_hash_has_every_field_of_area_lights() {
+    let scene = load("receivers", None).expect("built in");
+    let corners = [Vec3::X, Vec3::Y, Vec3::Z];
+    let lights = [
+        AreaLight::Sphere { center: Vec3::ZERO, radius: 1.0, radiance: Vec3::ONE },
+        AreaLight::Sphere { center: Vec3::Z, radius: 1.0, radiance: Vec3::ONE },
+        AreaLight::Sphere { center: Vec3::ZERO, radius: 1.0_f32.next_up(), radiance: Vec3::ONE },
+        AreaLight::Sphere { center: Vec3::ZERO, radius: 1.0, radiance: Vec3::X },
+        AreaLight::Triangle { corners, radiance: Vec3::ONE },
+        AreaLight::Triangle { corners, radiance: Vec3::X },
+        AreaLight::Triangle { corners: [Vec3::X, Vec3::Z, Vec3::Y], radiance: Vec3::ONE },
+        AreaLight::Triangle { corners: [Vec3::X, Vec3::Y, 2.0 * Vec3::Z], radiance: Vec3::ONE },
+    ];
+    let hash = |area_lights: &[AreaLight]| {
+        let scene = manylights_scene::Scene { area_lights: area_lights.to_vec(), ..scene.clone() };
+        content_hash(&scene, &scene.cameras[0])
+    };
+    let mut hashes: Vec<String> = lights.iter().map(|light| hash(&[*light])).collect();
+    hashes.extend([hash(&[]), hash(&lights[..2]), hash(&[lights[1], lights[0]])]);
+    assert_eq!(hashes[0], hash(&lights[..1]));
+    let different: std::collections::HashSet<_> = hashes.iter().collect();
+    assert_eq!(different.len(), hashes.len());
 }

@@ -1,25 +1,10 @@
 //! Scene files: what they add, and how wrong ones are refused.
 
-use crate::common;
+use crate::common::{self, load_text, write};
 use crate::tensor;
-use std::path::PathBuf;
-
 use glam::{Vec3, vec3};
 use manylights_scene::presets::PRESETS;
-use manylights_scene::{Light, LoadError, Lobe, Scene, load};
-use tempfile::TempDir;
-
-fn write(text: &str) -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let path = folder.path().join("hall.toml");
-    std::fs::write(&path, text).expect("can write");
-    (folder, path)
-}
-
-fn load_text(text: &str) -> Result<Scene, LoadError> {
-    let (_folder, path) = write(text);
-    load(path.to_str().expect("UTF-8"), None)
-}
+use manylights_scene::{Light, Lobe, load};
 
 const HEAD: &str = "about = \"a test\"\nsource = \"builtin:cornell\"\n";
 

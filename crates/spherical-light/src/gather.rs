@@ -6,11 +6,12 @@ use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader};
 use manylights_gpu::{Buffer, Error, Gpu, PointBindings, Table};
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_reflectance::{
-    Damping, Form, LOBES, MODULES, Materials, ReceiverKinds, SHAPES, Tables, diffuse, lobe_wgsl,
+    CosineProduct, Damping, Form, LOBES, MODULES, Materials, ReceiverKinds, SHAPES, Tables,
+    diffuse, lobe_wgsl,
 };
 
 use crate::cap_table::{self, COEFFICIENTS, CapTable};
-use crate::{Coefficients, Extent, Settings};
+use crate::{Coefficients, Extent, Product, Settings};
 
 /// Spheres a batch.
 const CAPACITY: usize = 512;
@@ -41,11 +42,13 @@ impl SphereLight {
 /// Where the shader does not link.
 pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<GatherShader, Error> {
     let Settings { bands, coefficients, extent, .. } = *settings;
+    let (estimator, modules, kinds_and_product) = match settings.product {
+        Product::Full => full(kinds, bands),
+        Product::Cosine(product) => cosine(kinds, product, settings),
+    };
+    let made: Vec<_> = modules.iter().map(|(name, text)| (*name, &**text)).collect();
     let own = [
-        ("sh", &*wgsl::module(bands, &[Function::CapScalesOf, Function::EvaluateEven])),
         ("cap_table", &*cap_table::module(bands)),
-        ("diffuse", &*diffuse::module(bands, Damping::None)),
-        ("lobe", &*lobe_wgsl::module(bands, Form::Full)),
         ("sphere", include_str!("shaders/sphere.wesl")),
     ];
     let features = [
@@ -55,13 +58,33 @@ pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<Gather
         ("measured", false),
     ];
     EstimatorShader {
-        estimator: include_str!("shaders/full.wesl"),
-        modules: &[&own[..], &MODULES].concat(),
-        features: &[&features[..], &kinds.features(Form::Full)].concat(),
+        estimator,
+        modules: &[&own[..], &made, &MODULES].concat(),
+        features: &[&features[..], &kinds_and_product].concat(),
         capacity: CAPACITY,
         bindings: PointBindings { settings: &[], tables: table_names(kinds, settings) },
     }
     .link()
+}
+
+/// An estimator, the modules that it imports, and its switches.
+type Estimator = (&'static str, Vec<(&'static str, String)>, Vec<(&'static str, bool)>);
+
+fn full(kinds: ReceiverKinds, bands: usize) -> Estimator {
+    let modules = [
+        ("sh", wgsl::module(bands, &[Function::CapScalesOf, Function::EvaluateEven])),
+        ("diffuse", diffuse::module(bands, Damping::None)),
+        ("lobe", lobe_wgsl::module(bands, Form::Full)),
+    ];
+    (include_str!("shaders/full.wesl"), modules.into(), kinds.features(Form::Full).into())
+}
+
+fn cosine(kinds: ReceiverKinds, product: CosineProduct, settings: &Settings) -> Estimator {
+    let Settings { bands, diffuse, .. } = *settings;
+    let mut modules = Vec::from(product.modules(bands));
+    modules.push(("lobe", lobe_wgsl::mirror_module(bands)));
+    let features = [&kinds.mirror_features()[..], &product.features(diffuse)].concat();
+    (include_str!("shaders/cosine.wesl"), modules, features)
 }
 
 /// Those of [`tables`].
@@ -87,7 +110,10 @@ pub(crate) fn tables(
     let bands = settings.bands;
     let mut on_gpu = Vec::new();
     if materials.kinds().specular {
-        let lobes = materials.lobe_records(tables, bands, Form::Full, Damping::None);
+        let lobes = match settings.product {
+            Product::Full => materials.lobe_records(tables, bands, Form::Full, Damping::None),
+            Product::Cosine(_) => materials.mirror_records(tables, bands),
+        };
         on_gpu.push(gpu.storage("shapes", &materials.shape_records())?);
         on_gpu.push(gpu.storage("lobes", &lobes)?);
     }

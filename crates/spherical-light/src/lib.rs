@@ -113,6 +113,7 @@ pub struct LobeTables {
 impl SceneTables for LobeTables {
     fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
         let settings = Settings::new(parameters);
+        refuse_long_products(&settings)?;
         if settings.narrow == Narrow::Decline {
             refuse_narrow_lobes(frame.scene)?;
         }
@@ -125,6 +126,20 @@ impl SceneTables for LobeTables {
     fn count(&self) -> u64 {
         self.count
     }
+}
+
+fn refuse_long_products(settings: &Settings) -> Result<(), Error> {
+    let Settings { product: Product::Cosine(product), bands, .. } = *settings else {
+        return Ok(());
+    };
+    let most = product.most_bands();
+    if bands <= most {
+        return Ok(());
+    }
+    Err(Error::Declined(format!(
+        "multiplies at most {most} bands by the cosine's expansion, whose integrals grow as bands⁵: --set \
+         bands={most}, or product=4.6"
+    )))
 }
 
 fn refuse_narrow_lobes(scene: &Scene) -> Result<(), Error> {

@@ -1,5 +1,6 @@
 use manylights_area_lights::BANDS;
 use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
+use manylights_reflectance::{CosineProduct, Diffuse};
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     ParameterInfo {
@@ -16,10 +17,40 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         help: "of light and reflectance",
         kind: ParameterKind::Choice {
             default: "full",
-            words: &[ChoiceWord {
-                word: "full",
-                help: "light by light with the cosine-weighted lobe: exact for so many bands",
-            }],
+            words: &[
+                ChoiceWord {
+                    word: "full",
+                    help: "light by light with the cosine-weighted lobe: exact for so many bands",
+                },
+                ChoiceWord {
+                    word: "general",
+                    help: "of all lights with the cosine's expansion (thesis 2.47), then with a \
+                           circular lobe about the mirror direction, as all that follow",
+                },
+                ChoiceWord { word: "4.5", help: "the same, the cosine's turn folded in" },
+                ChoiceWord { word: "4.5-cut", help: "the same with 3 bands of the cosine" },
+                ChoiceWord { word: "4.6", help: "with the cosine itself in the surface's frame" },
+                ChoiceWord {
+                    word: "4.6-rotated",
+                    help: "the same, the lights summed in the world's frame and then turned",
+                },
+            ],
+        },
+    },
+    ParameterInfo {
+        name: "diffuse",
+        formerly: None,
+        introduced: None,
+        help: "of the Lambertian lobe, where `product` is not full",
+        kind: ParameterKind::Choice {
+            default: "product",
+            words: &[
+                ChoiceWord {
+                    word: "product",
+                    help: "from coefficient 0 of light and cosine (thesis 4.4)",
+                },
+                ChoiceWord { word: "three-bands", help: "from the lights' first three bands" },
+            ],
         },
     },
     ParameterInfo {
@@ -66,6 +97,18 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     },
 ];
 
+const PRODUCTS: [(&str, Product); 6] = [
+    ("full", Product::Full),
+    ("general", Product::Cosine(CosineProduct::General)),
+    ("4.5", Product::Cosine(CosineProduct::Folded)),
+    ("4.5-cut", Product::Cosine(CosineProduct::FoldedCut)),
+    ("4.6", Product::Cosine(CosineProduct::Local)),
+    ("4.6-rotated", Product::Cosine(CosineProduct::Turned)),
+];
+
+const DIFFUSE: [(&str, Diffuse); 2] =
+    [("product", Diffuse::Product), ("three-bands", Diffuse::ThreeBands)];
+
 /// Of a lane's registers: a lobe has bands (bands + 1)/2 coefficients, of colours and measurements two and
 /// three times as many.
 pub const MAX_BANDS: usize = 15;
@@ -75,6 +118,8 @@ pub const MAX_BANDS: usize = 15;
 pub enum Product {
     /// The double product of each light's coefficients with the cosine-weighted lobe.
     Full,
+    /// The product of all lights' coefficients with the cosine, against a circular lobe.
+    Cosine(CosineProduct),
 }
 
 /// Where the coefficients of a cap come from.
@@ -111,6 +156,8 @@ pub struct Settings {
     pub bands: usize,
     /// How they meet.
     pub product: Product,
+    /// Where the irradiance comes from, where a product with the cosine is made.
+    pub diffuse: Diffuse,
     /// Where those of a light come from.
     pub coefficients: Coefficients,
     /// What a point sees of a light.
@@ -130,7 +177,8 @@ impl Settings {
     pub(crate) fn new(parameters: &Parameters) -> Self {
         Self {
             bands: parameters.count(BANDS) as usize,
-            product: parameters.choice("product", &[("full", Product::Full)]),
+            product: parameters.choice("product", &PRODUCTS),
+            diffuse: parameters.choice("diffuse", &DIFFUSE),
             coefficients: parameters.choice(
                 "coefficients",
                 &[("analytic", Coefficients::Analytic), ("tabulated", Coefficients::Tabulated)],
@@ -155,12 +203,19 @@ mod tests {
         let plain = Settings {
             bands: 9,
             product: Product::Full,
+            diffuse: Diffuse::Product,
             coefficients: Coefficients::Analytic,
             extent: Extent::Sphere,
             narrow: Narrow::Decline,
         };
         assert_eq!(Settings::default(), plain);
         assert_eq!(set("bands", "15").bands, 15);
+        for (word, product) in PRODUCTS {
+            assert_eq!(set("product", word), Settings { product, ..plain });
+        }
+        for (word, diffuse) in DIFFUSE {
+            assert_eq!(set("diffuse", word), Settings { diffuse, ..plain });
+        }
         let tabulated = Settings { coefficients: Coefficients::Tabulated, ..plain };
         assert_eq!(set("coefficients", "tabulated"), tabulated);
         assert_eq!(set("extent", "disc"), Settings { extent: Extent::Disc, ..plain });

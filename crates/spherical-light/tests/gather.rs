@@ -11,7 +11,7 @@ use manylights_scene::{Brdf, Measured};
 use manylights_spherical_light::{Coefficients, Extent, Settings, SphereLight, gather, oracle};
 
 /// Receivers around the origin.
-fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
+pub(crate) fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
     (0..512)
         .map(|i| {
             let place = spiral(i, 512, -1.0).as_vec3() * (0.2 + 0.01 * i as f32);
@@ -23,7 +23,7 @@ fn receivers(brdf: Brdf, camera: Vec3) -> Vec<SurfaceRecord> {
 }
 
 /// Largest difference to the oracle over all receivers, relative to the largest true radiance.
-fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> f64 {
+pub(crate) fn worst(brdf: Brdf, lights: &[SphereLight], settings: &Settings) -> f64 {
     let camera = oblique(Vec3::new(0.3, 7.0, 0.2));
     let surfaces = receivers(brdf, camera);
     let pixels = gather(&GPU, &surfaces, camera, lights, settings).expect("a gather");
@@ -47,7 +47,7 @@ fn measured() -> Brdf {
     Measured::load(&path).expect("valid").brdf()
 }
 
-fn sphere(radius: f32) -> SphereLight {
+pub(crate) fn sphere(radius: f32) -> SphereLight {
     SphereLight::new(oblique(Vec3::new(0.02, 0.05, 0.01)), radius, Vec3::new(1.0, 0.7, 0.3))
 }
 

@@ -5,6 +5,7 @@ mod common;
 mod floors;
 mod gather;
 mod hard_cases;
+mod products;
 mod scenes;
 mod shaders;
 mod tables;

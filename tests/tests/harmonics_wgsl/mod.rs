@@ -1,6 +1,7 @@
 //! The WGSL that harmonics generates, on the adapter at hand, against f64.
 
 mod adapter;
+mod products;
 
 use adapter::{
     cap_truth, direction, gradients_error, inputs, run, scales_error, values, values_error,

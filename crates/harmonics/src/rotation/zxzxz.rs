@@ -35,6 +35,11 @@ impl<R: Real> Zxzxz<R> {
         Self { bands, quarter }
     }
 
+    /// Non-zeros (row, column, value) of the quarter turn about x.
+    pub(crate) fn non_zeros(&self) -> impl Iterator<Item = (usize, usize, R)> {
+        self.quarter.iter().map(|&(row, column, value)| (row as usize, column as usize, value))
+    }
+
     /// Turns a function by `matrix` in place; `scratch` holds as many numbers.
     pub fn apply(&self, matrix: Matrix<R>, coefficients: &mut [R], scratch: &mut [R]) {
         assert_eq!(scratch.len(), coefficients.len(), "scratch as long as the coefficients");

@@ -188,3 +188,20 @@ pub(super) fn zonal_dot(bands: usize, even: bool) -> Lines {
     }
     scope.lines.give(format_args!("sum{}", bands - 1))
 }
+
+/// Σ_m Y_lm b_lm of each l.
+pub(super) fn bands(bands: usize, even: bool) -> Lines {
+    let mut scope = Scope::new(bands, even);
+    for _ in 0..bands {
+        scope.next_order();
+    }
+    let sums: Vec<_> = (0..bands)
+        .map(|l| {
+            let term = |(m, position)| {
+                (true, product(&[&scope.value(l, m), &Factor::element("b", position)]))
+            };
+            sum(scope.orders(l).into_iter().map(term))
+        })
+        .collect();
+    scope.lines.give_array("vec3f", &sums)
+}

@@ -86,6 +86,16 @@ impl Lines {
         Factor::named(name)
     }
 
+    /// `name: array<vec3f, length>`, for [`Self::add`].
+    pub(super) fn sums(&mut self, name: &str, length: usize) {
+        self.text.push_str(&format!("    var {name}: array<vec3f, {length}>;\n"));
+    }
+
+    /// `name[position] += expression;`
+    pub(super) fn add(&mut self, name: &str, position: usize, expression: impl fmt::Display) {
+        self.text.push_str(&format!("    {name}[{position}] += {expression};\n"));
+    }
+
     /// `return expression;`
     pub(super) fn give(mut self, expression: impl fmt::Display) -> Self {
         self.text.push_str(&format!("    return {expression};\n"));
@@ -104,7 +114,7 @@ impl Lines {
             operators.iter().map(|operator| self.text.matches(operator).count()).sum()
         };
         let operations = Operations {
-            additions: count(&[" + ", " - "]),
+            additions: count(&[" + ", " += ", " - "]),
             multiplications: count(&[" * ", " / "]),
         };
         Generated { wgsl: format!("fn {signature} {{\n{}}}\n", self.text), operations }

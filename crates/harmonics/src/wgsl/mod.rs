@@ -13,6 +13,7 @@ mod cap;
 mod gradient;
 mod lines;
 mod product;
+mod rotation;
 
 pub use lines::Operations;
 
@@ -48,25 +49,48 @@ pub enum Function {
     ZonalDot,
     /// `sh_zonal_dot_even(direction: vec3f, scales: array<f32, n>, b: array<f32, H>) -> f32`.
     ZonalDotEven,
-    /// `sh_clamped_cosine(a: array<f32, N>) -> array<f32, N>`: the SH product of a and max(0, z)
+    /// `sh_bands(direction: vec3f, b: array<vec3f, N>) -> array<vec3f, n>`: Σ_m Y_lm(direction) b_lm,
+    /// band by band: the double product with any zonal function about that direction is the sum of
+    /// these times its scales.
+    Bands,
+    /// `sh_bands_even(direction: vec3f, b: array<vec3f, H>) -> array<vec3f, n>`.
+    BandsEven,
+    /// `sh_product(a: array<vec3f, N>, b: array<f32, N>) -> array<vec3f, N>`: the SH product of any two
+    /// functions (thesis 2.48).
+    Product,
+    /// `sh_cosine_product(a: array<vec3f, N>, normal: array<f32, N>) -> array<vec3f, N>`: the SH product
+    /// of a and the expansion of the clamped cosine about a normal, whose Y_lm are given (thesis 4.5).
+    CosineProduct,
+    /// `sh_cosine_product_cut(a: array<vec3f, N>, normal: array<f32, M>) -> array<vec3f, N>`: the same
+    /// with [`CUT`] bands of the cosine at most; M is the number of their coefficients.
+    CosineProductCut,
+    /// `sh_clamped_cosine(a: array<vec3f, N>) -> array<vec3f, N>`: the SH product of a and max(0, z)
     /// (thesis 4.6).
     ClampedCosine,
-    /// `sh_clamped_cosine_even(a: array<f32, H>) -> array<f32, H>`.
+    /// `sh_clamped_cosine_even(a: array<vec3f, H>) -> array<vec3f, H>`.
     ClampedCosineEven,
+    /// `sh_turn_even(tangent: vec3f, bitangent: vec3f, normal: vec3f, a: array<vec3f, N>) ->
+    /// array<vec3f, H>`: what a function is in the frame of these axes (x, y, z), its half even in y, by
+    /// [`crate::rotation::Zxzxz`].
+    TurnEven,
 }
+
+/// Bands of the clamped cosine that hold most of it (thesis 4.1.3, l₂ < 3).
+pub const CUT: usize = 3;
 
 /// One WGSL function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Generated {
     /// Its declaration.
     pub wgsl: String,
-    /// What one call costs at most: before the compiler joins products and sums.
+    /// What one call costs at most: before the compiler joins products and sums. With coefficients
+    /// of `vec3f`, what one channel alone would cost.
     pub operations: Operations,
 }
 
 impl Function {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 18] = [
         Self::Evaluate,
         Self::EvaluateEven,
         Self::EvaluateWithGradient,
@@ -77,8 +101,14 @@ impl Function {
         Self::DotEven,
         Self::ZonalDot,
         Self::ZonalDotEven,
+        Self::Bands,
+        Self::BandsEven,
+        Self::Product,
+        Self::CosineProduct,
+        Self::CosineProductCut,
         Self::ClampedCosine,
         Self::ClampedCosineEven,
+        Self::TurnEven,
     ];
 
     /// The declaration for `bands` ≥ 1 bands.
@@ -130,13 +160,53 @@ impl Function {
                 ),
                 basis::zonal_dot(n, true),
             ),
+            Self::Bands => (
+                format!("sh_bands(direction: vec3f, b: array<vec3f, {all}>) -> array<vec3f, {n}>"),
+                basis::bands(n, false),
+            ),
+            Self::BandsEven => (
+                format!(
+                    "sh_bands_even(direction: vec3f, b: array<vec3f, {half}>) -> \
+                     array<vec3f, {n}>"
+                ),
+                basis::bands(n, true),
+            ),
+            Self::Product => (
+                format!(
+                    "sh_product(a: array<vec3f, {all}>, b: array<f32, {all}>) -> \
+                     array<vec3f, {all}>"
+                ),
+                product::general(n),
+            ),
+            Self::CosineProduct => (
+                format!(
+                    "sh_cosine_product(a: array<vec3f, {all}>, normal: array<f32, {all}>) -> \
+                     array<vec3f, {all}>"
+                ),
+                product::folded(n, n),
+            ),
+            Self::CosineProductCut => (
+                format!(
+                    "sh_cosine_product_cut(a: array<vec3f, {all}>, normal: array<f32, {}>) -> \
+                     array<vec3f, {all}>",
+                    count(n.min(CUT))
+                ),
+                product::folded(n, n.min(CUT)),
+            ),
             Self::ClampedCosine => (
-                format!("sh_clamped_cosine(a: array<f32, {all}>) -> array<f32, {all}>"),
+                format!("sh_clamped_cosine(a: array<vec3f, {all}>) -> array<vec3f, {all}>"),
                 product::clamped_cosine(n, false),
             ),
             Self::ClampedCosineEven => (
-                format!("sh_clamped_cosine_even(a: array<f32, {half}>) -> array<f32, {half}>"),
+                format!("sh_clamped_cosine_even(a: array<vec3f, {half}>) -> array<vec3f, {half}>"),
                 product::clamped_cosine(n, true),
+            ),
+            Self::TurnEven => (
+                format!(
+                    "sh_turn_even(tangent: vec3f, bitangent: vec3f, normal: vec3f, \
+                     a: array<vec3f, {all}>) -> array<vec3f, {half}>"
+                ),
+                rotation::turn_even(n),
             ),
         };
         body.function(&signature)

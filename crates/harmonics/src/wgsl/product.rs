@@ -1,7 +1,8 @@
 //! Products of coefficient vectors.
 
 use super::lines::{Factor, Lines, product, sum};
-use crate::clamped_cosine::Local;
+use crate::clamped_cosine::{Local, scales};
+use crate::product::Gaunt;
 use crate::{count, even_count, even_index, index};
 
 pub(super) fn dot(bands: usize, even: bool) -> Lines {
@@ -45,5 +46,45 @@ pub(super) fn clamped_cosine(bands: usize, even: bool) -> Lines {
         }
     }
     let values: Vec<_> = rows.into_iter().map(sum).collect();
-    Lines::default().give_array("f32", &values)
+    Lines::default().give_array("vec3f", &values)
+}
+
+/// Thesis 2.48.
+pub(super) fn general(bands: usize) -> Lines {
+    by_matrix(bands, "b", &vec![1.0; bands])
+}
+
+/// Thesis 4.5.
+pub(super) fn folded(bands: usize, cosine_bands: usize) -> Lines {
+    let mut cosine = vec![0.0; cosine_bands];
+    scales(&mut cosine);
+    by_matrix(bands, "normal", &cosine)
+}
+
+/// a times the function of `factors`_l `other`_j. The symmetric matrix Σ_j ∫ Y_i Y_j Y_k `other`_j comes
+/// first, entry by entry, and serves all channels, (i, k) and (k, i): with three channels that is a third of
+/// what products of coefficients would take. At once its two terms are added, so no entry waits in memory.
+fn by_matrix(bands: usize, other: &str, factors: &[f64]) -> Lines {
+    let (gaunt, size) = (Gaunt::new(bands), count(bands));
+    let mut lines = Lines::default();
+    lines.sums("sums", size);
+    for i in 0..size {
+        for k in i..size {
+            let terms = (0..count(factors.len())).filter_map(|j| {
+                let value = gaunt.integral([i, j, k])? * factors[j.isqrt()];
+                let factors = [Factor::Constant(value.abs()), Factor::element(other, j)];
+                (value != 0.0).then(|| (value > 0.0, product(&factors.each_ref())))
+            });
+            let terms: Vec<_> = terms.collect();
+            if terms.is_empty() {
+                continue;
+            }
+            let entry = lines.bind(&format!("c{i}_{k}"), sum(terms));
+            lines.add("sums", k, product(&[&entry, &Factor::element("a", i)]));
+            if i != k {
+                lines.add("sums", i, product(&[&entry, &Factor::element("a", k)]));
+            }
+        }
+    }
+    lines.give("sums")
 }

@@ -1,4 +1,5 @@
-//! Runs the generated WGSL on the CPU: the subset of straight-line f32 functions, no more.
+//! Runs the generated WGSL on the CPU: the subset of straight-line f32 functions, no more. An element of
+//! `vec3f` is one number here: any of its channels.
 
 use std::collections::HashMap;
 
@@ -18,6 +19,17 @@ pub(crate) fn run(wgsl: &str, arguments: &[(&str, Numbers)]) -> Numbers {
                 let (name, expression) = rest.split_once(" = ").expect("a binding");
                 let value = evaluate(expression, &names);
                 names.insert(name.to_owned(), value);
+            }
+            ("var", rest) => {
+                let (name, kind) = rest.split_once(": array<vec3f, ").expect("an array");
+                let length: usize = kind.trim_end_matches('>').parse().expect("a length");
+                names.insert(name.to_owned(), vec![0.0; length]);
+            }
+            (sum, rest) if rest.starts_with("+= ") => {
+                let value = evaluate(&rest[3..], &names)[0];
+                let (name, position) = sum.trim_end_matches(']').split_once('[').expect("[");
+                let position: usize = position.parse().expect("an index");
+                names.get_mut(name).expect("a name")[position] += value;
             }
             ("return", expression) => return evaluate(expression, &names),
             _ => panic!("no straight line: {statement}"),

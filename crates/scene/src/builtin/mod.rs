@@ -3,6 +3,7 @@
 mod atrium;
 mod cornell;
 pub mod integrating_sphere;
+mod receivers;
 mod trio;
 
 use crate::{LoadError, Material, Scene};
@@ -44,6 +45,11 @@ pub const BUILTINS: &[Builtin] = &[
         name: "trio",
         about: "sphere, torus and rounded cube of different gloss before a wall, one spot light",
         make: trio::make,
+    },
+    Builtin {
+        name: "receivers",
+        about: "seven spheres of roughness 0.1 to 1 and a Lambertian one under five spheres of light",
+        make: receivers::make,
     },
 ];
 

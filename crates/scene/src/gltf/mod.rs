@@ -30,6 +30,7 @@ use gltf_crate::Document;
 use self::buffers::Buffers;
 use self::import::Import;
 use self::materials::Materials;
+pub(crate) use self::nodes::MAX_ELEMENTS;
 use self::notes::Notes;
 use self::source::Source;
 use crate::{Camera, LoadError, Scene};

@@ -14,7 +14,7 @@ use super::{optics, primitives};
 use crate::LoadError;
 
 /// Most vertices and indices that are drawn: some 4 GiB of them.
-const MAX_ELEMENTS: u128 = 1 << 27;
+pub(crate) const MAX_ELEMENTS: u128 = 1 << 27;
 
 /// The root nodes of the default scene, or of the first, or of the whole file.
 ///

@@ -1,23 +1,16 @@
 //! Images: PNG and JPEG, decoded when the first material uses them.
 
 use std::collections::HashMap;
-use std::io::Cursor;
 
 use ::gltf as gltf_crate;
 use glam::{DVec3, U8Vec3, Vec3};
 use gltf_crate::texture::{MagFilter, MinFilter, Sampler, WrappingMode};
-use image::error::{ImageError, LimitErrorKind};
-use image::{ImageReader, Limits};
 
 use super::buffers;
 use super::fault::broken;
 use super::notes::Notes;
 use super::source::Source;
-use crate::{LoadError, Scene, Texture};
-
-/// Largest width and height, and most bytes that decoding may take: refused before any allocation.
-const MAX_SIDE: u32 = 16_384;
-const MAX_BYTES: u64 = 1 << 30;
+use crate::{LoadError, Scene, Texture, image_file};
 
 /// Images of the file that are in the scene already.
 #[derive(Default)]
@@ -96,7 +89,7 @@ fn image_of(texture: &gltf_crate::Texture, source: Source, notes: &mut Notes) ->
 
 fn decode(image: usize, source: Source) -> Result<Texture, LoadError> {
     read(image, source)
-        .and_then(|bytes| decode_bytes(&bytes))
+        .and_then(|bytes| image_file::decode(&bytes))
         .map_err(|error| error.within(format!("images[{image}]")))
 }
 
@@ -111,34 +104,7 @@ fn read(image: usize, source: Source) -> Result<Vec<u8>, LoadError> {
             let bytes = &source.buffers.get(view.buffer.value())[start..];
             Ok(bytes[..view.byte_length.0 as usize].to_vec())
         }
-        (None, Some(uri)) => buffers::resolve(uri, source.folder, MAX_BYTES),
+        (None, Some(uri)) => buffers::resolve(uri, source.folder, image_file::MAX_BYTES),
         (None, None) => Err(broken("uri", "is missing, and there is no buffer view")),
-    }
-}
-
-fn decode_bytes(bytes: &[u8]) -> Result<Texture, LoadError> {
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
-    limits.max_alloc = Some(MAX_BYTES);
-    let mut reader = ImageReader::new(Cursor::new(bytes))
-        .with_guessed_format()
-        .map_err(|error| broken("data", error))?;
-    reader.limits(limits);
-    let image = reader.decode().map_err(refuse)?.to_rgba8();
-    let (width, height) = image.dimensions();
-    let texels = image.pixels().map(|pixel| pixel.0).collect();
-    Ok(Texture { width, height, texels })
-}
-
-fn refuse(error: ImageError) -> LoadError {
-    let limit = format!("make it at most {MAX_SIDE} texels wide and high");
-    match &error {
-        ImageError::Limits(limits) if limits.kind() == LimitErrorKind::DimensionError => {
-            LoadError::new("data", "is too large an image", limit)
-        }
-        ImageError::Limits(_) => LoadError::new("data", "takes too much memory", limit),
-        ImageError::Unsupported(_) => LoadError::new("data", &error, "convert it to PNG or JPEG"),
-        _ => broken("data", &error),
     }
 }

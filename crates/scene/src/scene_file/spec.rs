@@ -1,13 +1,11 @@
-//! The parts of a scene file, and the checks of their numbers.
+//! Cameras and materials of a scene file.
 
-use std::ops::RangeInclusive;
-use std::path::PathBuf;
-
-use glam::Vec3;
 use serde::Deserialize;
 
+use super::checks::{direction, number, radiance, vector};
+use super::document::Document;
 use crate::presets::PRESETS;
-use crate::{Camera, Light, LoadError, Material, Measured};
+use crate::{Camera, LoadError, Material, Measured, Scene};
 
 /// A pinhole camera; lengths in metres, angles in degrees.
 #[derive(Deserialize)]
@@ -25,15 +23,6 @@ fn y_axis() -> [f32; 3] {
     [0.0, 1.0, 0.0]
 }
 
-/// A light; intensities in W·sr⁻¹, irradiance in W·m⁻², half-angles of cones in degrees.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "lowercase", tag = "kind")]
-pub(super) enum LightSpec {
-    Point { position: [f32; 3], intensity: [f32; 3] },
-    Spot { position: [f32; 3], target: [f32; 3], intensity: [f32; 3], inner: f32, outer: f32 },
-    Directional { direction: [f32; 3], irradiance: [f32; 3] },
-}
-
 /// What replaces parts of a material.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -47,7 +36,7 @@ pub(super) struct MaterialSpec {
     /// A reflectance by name, instead of all of the above but the emission.
     preset: Option<String>,
     /// Likewise, from a file: `asset:PATH` below the assets folder, or a path relative to this file.
-    pub(super) measured: Option<String>,
+    measured: Option<String>,
 }
 
 impl CameraSpec {
@@ -63,41 +52,29 @@ impl CameraSpec {
     }
 }
 
-impl LightSpec {
-    pub(super) fn light(&self, place: &str) -> Result<Light, LoadError> {
-        let place = format!("{place}: light");
-        Ok(match *self {
-            Self::Point { position, intensity } => Light::Point {
-                position: vector(&place, "position", position)?,
-                intensity: radiance(&place, "intensity", intensity)?,
-            },
-            Self::Spot { position, target, intensity, inner, outer } => {
-                let position = vector(&place, "position", position)?;
-                let axis = vector(&place, "target", target)? - position;
-                let outer = number(&place, "outer", outer, 0.1..=89.0)?;
-                Light::Spot {
-                    position,
-                    direction: direction(&place, "target − position", axis)?,
-                    intensity: radiance(&place, "intensity", intensity)?,
-                    inner: number(&place, "inner", inner, 0.0..=outer)?.to_radians(),
-                    outer: outer.to_radians(),
-                }
-            }
-            Self::Directional { direction: axis, irradiance } => Light::Directional {
-                direction: direction(&place, "direction", vector(&place, "direction", axis)?)?,
-                irradiance: radiance(&place, "irradiance", irradiance)?,
-            },
-        })
-    }
-}
-
 impl MaterialSpec {
-    /// Changes `material`; `locate` finds the files that this one names.
-    pub(super) fn apply(
+    /// Changes the materials of a scene that `is_meant` picks.
+    pub(super) fn apply_to(
+        &self,
+        scene: &mut Scene,
+        document: &Document,
+        place: &str,
+        is_meant: impl Fn(&Material) -> bool,
+    ) -> Result<(), LoadError> {
+        for material in scene.materials.iter_mut().filter(|material| is_meant(material)) {
+            self.apply(material, document, place)?;
+        }
+        if let Some(file) = &self.measured {
+            scene.sources.push(document.located(file)?);
+        }
+        Ok(())
+    }
+
+    fn apply(
         &self,
         material: &mut Material,
+        document: &Document,
         place: &str,
-        locate: impl Fn(&str) -> Result<PathBuf, LoadError>,
     ) -> Result<(), LoadError> {
         if let Some(emission) = self.emission {
             material.emission = radiance(place, "emission", emission)?;
@@ -112,7 +89,8 @@ impl MaterialSpec {
         }
         if let Some(file) = &self.measured {
             self.only("measured", place)?;
-            let measured = Measured::load(&locate(file)?).map_err(|error| error.within(place))?;
+            let measured =
+                Measured::load(&document.located(file)?).map_err(|error| error.within(place))?;
             *material = material.clone().with_brdf(measured.brdf());
             return Ok(());
         }
@@ -155,42 +133,4 @@ impl MaterialSpec {
             None => Ok(()),
         }
     }
-}
-
-/// `value`, if it is in `range`; NaN never is.
-pub(super) fn number(
-    place: &str,
-    key: &str,
-    value: f32,
-    range: RangeInclusive<f32>,
-) -> Result<f32, LoadError> {
-    if range.contains(&value) {
-        return Ok(value);
-    }
-    let remedy = format!("use a number from {} to {}", range.start(), range.end());
-    Err(LoadError::new(place, format!("{key} = {value} is out of range"), remedy))
-}
-
-fn vector(place: &str, key: &str, value: [f32; 3]) -> Result<Vec3, LoadError> {
-    let vector = Vec3::from(value);
-    if vector.is_finite() {
-        return Ok(vector);
-    }
-    Err(LoadError::new(place, format!("{key} is not finite"), "use finite numbers"))
-}
-
-fn direction(place: &str, key: &str, value: Vec3) -> Result<Vec3, LoadError> {
-    let remedy = "give it a direction";
-    value
-        .try_normalize()
-        .ok_or_else(|| LoadError::new(place, format!("{key} has no length"), remedy))
-}
-
-/// A finite colour without negative channels.
-fn radiance(place: &str, key: &str, value: [f32; 3]) -> Result<Vec3, LoadError> {
-    let color = vector(place, key, value)?;
-    if color.min_element() >= 0.0 {
-        return Ok(color);
-    }
-    Err(LoadError::new(place, format!("{key} is negative"), "use numbers from 0"))
 }

@@ -4,13 +4,27 @@ pub(crate) mod triangle;
 
 use std::path::PathBuf;
 
-use manylights_scene::{LoadError, Scene};
+use manylights_scene::{LoadError, Scene, load};
+use tempfile::TempDir;
 
 /// The folder of real scenes.
 pub(crate) fn assets() -> PathBuf {
     let folder = std::env::var_os("MANYLIGHTS_ASSETS")
         .expect("set MANYLIGHTS_ASSETS to the folder with the shared assets");
     PathBuf::from(folder)
+}
+
+/// A scene file `hall.toml` in a folder that lives as long as what is returned.
+pub(crate) fn write(text: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("hall.toml");
+    std::fs::write(&path, text).expect("can write");
+    (folder, path)
+}
+
+pub(crate) fn load_text(text: &str) -> Result<Scene, LoadError> {
+    let (_folder, path) = write(text);
+    load(path.to_str().expect("UTF-8"), None)
 }
 
 /// What every loaded scene promises to renderers.

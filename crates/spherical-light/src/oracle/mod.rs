@@ -3,10 +3,11 @@
 use glam::DVec3;
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::zonal::{Cap, cap_stable};
+use manylights_reflectance::product_oracle::ProductReceiver;
 use manylights_reflectance::{Damping, Form, Receiver};
 
 use crate::cap_table::CapTable;
-use crate::{Coefficients, Extent, Settings, SphereLight};
+use crate::{Coefficients, Extent, Product, Settings, SphereLight};
 
 /// As in the shader: distance, m, below which the point is at the centre, along the normal.
 const COINCIDENT: f64 = 1e-15;
@@ -26,9 +27,8 @@ pub fn radiance(
     let normal = surface.normal.as_dvec3().normalize();
     let view = (camera - position).normalize();
     let bands = settings.bands;
-    let receiver = Receiver::new(surface.brdf(), [normal, view], bands, Form::Full, Damping::None);
     let table = (settings.coefficients == Coefficients::Tabulated).then(|| CapTable::new(bands));
-    let reflected = |light: &SphereLight| {
+    let seen = |light: &SphereLight| {
         let (direction, cap) = cap(light, [position, normal], settings.extent);
         let scales = match &table {
             Some(table) => table.scales(cap),
@@ -38,11 +38,29 @@ pub fn radiance(
                 scales
             }
         };
-        let diffuse = receiver.diffuse_product(normal.dot(direction), &scales);
-        let lobes = receiver.lambert * diffuse + receiver.specular_product(direction, &scales);
-        light.radiance.as_dvec3() * lobes
+        (direction, scales, light.radiance.as_dvec3())
     };
-    lights.iter().map(reflected).sum()
+    let seen = lights.iter().map(seen);
+    let (brdf, directions) = (surface.brdf(), [normal, view]);
+    match settings.product {
+        Product::Full => {
+            let receiver = Receiver::new(brdf, directions, bands, Form::Full, Damping::None);
+            let reflected = |(direction, scales, radiance): (DVec3, Vec<f64>, DVec3)| {
+                let diffuse = receiver.diffuse_product(normal.dot(direction), &scales);
+                let specular = receiver.specular_product(direction, &scales);
+                radiance * (receiver.lambert * diffuse + specular)
+            };
+            seen.map(reflected).sum()
+        }
+        Product::Cosine(product) => {
+            let diffuse = settings.diffuse;
+            let mut receiver = ProductReceiver::new(brdf, directions, bands, product, diffuse);
+            for (direction, scales, radiance) in seen {
+                receiver.add(direction, &scales, radiance);
+            }
+            receiver.radiance()
+        }
+    }
 }
 
 /// What a point of this normal sees of a light, and where.

@@ -8,6 +8,7 @@ use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
 use manylights_harmonics::quadrature::sphere_nodes;
 use manylights_method::{Error, Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
+use manylights_reflectance::Diffuse;
 use manylights_scene::{AreaLight, Brdf, DBrdf, Lobe, Scene, Transport, Visibility};
 use manylights_spherical_light::{
     Coefficients, Extent, Narrow, Product, Settings, SphereLight, SphericalLights,
@@ -19,6 +20,7 @@ pub(crate) static GPU: LazyLock<Gpu> =
 pub(crate) const SETTINGS: Settings = Settings {
     bands: 9,
     product: Product::Full,
+    diffuse: Diffuse::Product,
     coefficients: Coefficients::Analytic,
     extent: Extent::Sphere,
     narrow: Narrow::Decline,

@@ -1,0 +1,117 @@
+//! The ways of thesis 4.1 from a light's coefficients to radiance: the light times the clamped cosine, whose
+//! coefficient 0 is the irradiance (4.4) and whose double product with the lobe about the mirror direction is
+//! what the lobe reflects. The full lobe holds its cosine already and needs none of them.
+//!
+//! All are straight lines, none a loop over a table: software adapters and GPUs alike keep coefficients in
+//! registers and read constants with the code, where an index that is not known while compiling would turn
+//! each of 12 057 integrals (9 bands) into reads of memory. What a compiler pays for that is 5 to 25 s for
+//! the general product of 9 bands on lavapipe, once for a kernel. The general product and 4.5 make the matrix
+//! that the cosine is for this normal first: it is symmetric and serves three channels
+//! ([`Function::Product`]).
+
+use manylights_harmonics::wgsl::{self, CUT, Function, Operations};
+
+use crate::product_wgsl;
+
+/// How a light's coefficients are multiplied with the clamped cosine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CosineProduct {
+    /// With its expansion turned to the normal, by the general product (thesis 2.47, 2.48).
+    General,
+    /// With the turn folded into the integrals (4.5).
+    Folded,
+    /// The same with three bands of the cosine.
+    FoldedCut,
+    /// With the cosine itself, of a light that is summed in the surface's frame (4.6).
+    Local,
+    /// The same of a light that is summed in the world's frame and then turned.
+    Turned,
+}
+
+/// Where the irradiance comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Diffuse {
+    /// Coefficient 0 of the product (4.4).
+    Product,
+    /// A product of the light's first three bands with those of the cosine.
+    ThreeBands,
+}
+
+impl CosineProduct {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::General, Self::Folded, Self::FoldedCut, Self::Local, Self::Turned];
+
+    /// Whether the light is summed in the surface's frame, its half even in y alone: else in the world's.
+    pub fn is_local(self) -> bool {
+        self == Self::Local
+    }
+
+    /// Bands that it is made for: the lines of the general product grow as n⁵.
+    pub fn most_bands(self) -> usize {
+        match self {
+            Self::General | Self::Folded | Self::FoldedCut => 9,
+            Self::Local | Self::Turned => manylights_harmonics::MAX_BANDS,
+        }
+    }
+
+    /// Switches of the modules `product` and `receiver` ([`crate::MODULES`]) for a linker.
+    pub fn features(self, diffuse: Diffuse) -> [(&'static str, bool); 5] {
+        [
+            ("general", self == Self::General),
+            ("folded", self == Self::Folded),
+            ("folded_cut", self == Self::FoldedCut),
+            ("local", self.is_local()),
+            ("three_bands", diffuse == Diffuse::ThreeBands),
+        ]
+    }
+
+    /// Names and texts of what `product` imports, made for a number of bands: `sh`, which has `CapScalesOf`
+    /// beside, `sh_cut` for [`CUT`] bands at most, and `product_sums`.
+    pub fn modules(self, bands: usize) -> [(&'static str, String); 3] {
+        let mut functions = vec![Function::CapScalesOf];
+        functions.extend(self.steps());
+        functions.extend(match self {
+            Self::Local => [Function::EvaluateEven, Function::BandsEven],
+            Self::Turned => [Function::Evaluate, Function::BandsEven],
+            _ => [Function::Evaluate, Function::Bands],
+        });
+        [
+            ("sh", wgsl::module(bands, &functions)),
+            ("sh_cut", wgsl::module(bands.min(CUT), &[Function::Evaluate, Function::Bands])),
+            ("product_sums", product_wgsl::module(bands, self)),
+        ]
+    }
+
+    /// What makes the product of a light's coefficients.
+    fn steps(self) -> &'static [Function] {
+        match self {
+            Self::General => &[Function::Product],
+            Self::Folded => &[Function::CosineProduct],
+            Self::FoldedCut => &[Function::CosineProductCut],
+            Self::Local => &[Function::ClampedCosineEven],
+            Self::Turned => &[Function::TurnEven, Function::ClampedCosineEven],
+        }
+    }
+
+    /// Arithmetic of the product for one channel (figure 4.2), with the Y_lm of the normal where it needs
+    /// them, as the generator writes it: what serves several channels counts once for the one.
+    pub fn operations(self, bands: usize) -> Operations {
+        let of = |function: Function, bands| function.generate(bands).operations;
+        let steps = self.steps().iter().map(|&step| of(step, bands));
+        let normal = match self {
+            // The scales of the cosine: a multiplication a coefficient.
+            Self::General => vec![
+                of(Function::Evaluate, bands),
+                Operations { additions: 0, multiplications: bands * bands },
+            ],
+            Self::Folded => vec![of(Function::Evaluate, bands)],
+            Self::FoldedCut => vec![of(Function::Evaluate, bands.min(CUT))],
+            Self::Local | Self::Turned => Vec::new(),
+        };
+        steps.chain(normal).fold(Operations::default(), |sum, more| Operations {
+            additions: sum.additions + more.additions,
+            multiplications: sum.multiplications + more.multiplications,
+        })
+    }
+}
