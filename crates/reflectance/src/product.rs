@@ -2,12 +2,14 @@
 //! coefficient 0 is the irradiance (4.4) and whose double product with the lobe about the mirror direction is
 //! what the lobe reflects. The full lobe holds its cosine already and needs none of them.
 //!
-//! All are straight lines, none a loop over a table: software adapters and GPUs alike keep coefficients in
-//! registers and read constants with the code, where an index that is not known while compiling would turn
-//! each of 12 057 integrals (9 bands) into reads of memory. What a compiler pays for that is 5 to 25 s for
-//! the general product of 9 bands on lavapipe, once for a kernel. The general product and 4.5 make the matrix
-//! that the cosine is for this normal first: it is symmetric and serves three channels
-//! ([`Function::Product`]).
+//! All are straight lines of WGSL, none a loop over a table: an index that is not known while compiling would
+//! keep the coefficients of light and product, three channels each, out of registers and caches of constants,
+//! and turn every integral (12 057 of 9 bands) into reads and writes of a lane's memory. The price is the
+//! compiler's: 5 to 25 s for the general product of 9 bands on lavapipe, once for a kernel. The general product
+//! and 4.5 make the matrix first that the cosine is for this normal: it is symmetric and serves three channels
+//! ([`Function::Product`]). So each rival gets what serves it best, and all have the same order: light times
+//! cosine, then the lobe, as the thesis has it. (Cosine times lobe first would be one channel instead of three,
+//! for every rival alike; but then the cosine may as well be in the lobe's table.)
 
 use manylights_harmonics::wgsl::{self, CUT, Function, Operations};
 
@@ -47,6 +49,11 @@ impl CosineProduct {
         self == Self::Local
     }
 
+    /// Whether the product is made in the surface's frame.
+    pub(crate) fn is_in_frame(self) -> bool {
+        matches!(self, Self::Local | Self::Turned)
+    }
+
     /// Bands that it is made for: the lines of the general product grow as n⁵.
     pub fn most_bands(self) -> usize {
         match self {
@@ -56,11 +63,12 @@ impl CosineProduct {
     }
 
     /// Switches of the modules `product` and `receiver` ([`crate::MODULES`]) for a linker.
-    pub fn features(self, diffuse: Diffuse) -> [(&'static str, bool); 5] {
+    pub fn features(self, diffuse: Diffuse) -> [(&'static str, bool); 6] {
         [
             ("general", self == Self::General),
             ("folded", self == Self::Folded),
             ("folded_cut", self == Self::FoldedCut),
+            ("in_frame", self.is_in_frame()),
             ("local", self.is_local()),
             ("three_bands", diffuse == Diffuse::ThreeBands),
         ]

@@ -45,7 +45,8 @@ enum Integrals {
 impl Integrals {
     /// Made once: those of 9 bands take longer than a picture.
     fn of(product: CosineProduct, bands: usize) -> Arc<Self> {
-        static MADE: Mutex<Vec<((CosineProduct, usize), Arc<Integrals>)>> = Mutex::new(Vec::new());
+        type Made = Vec<((CosineProduct, usize), Arc<Integrals>)>;
+        static MADE: Mutex<Made> = Mutex::new(Vec::new());
         let mut made = MADE.lock().unwrap_or_else(|poison| poison.into_inner());
         let key = (product, bands);
         if let Some((_, found)) = made.iter().find(|(known, _)| *known == key) {
@@ -125,7 +126,7 @@ impl ProductReceiver {
         let (way, diffuse) = self.settings;
         let light = &self.light[channel];
         let product = self.under_cosine(light);
-        let in_frame = matches!(way, CosineProduct::Local | CosineProduct::Turned);
+        let in_frame = way.is_in_frame();
         let place = |direction, frame| if frame { self.to_frame(direction) } else { direction };
         let [normal, mirror] =
             [self.frame[2], self.mirror].map(|direction| place(direction, in_frame));

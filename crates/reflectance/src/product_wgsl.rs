@@ -28,7 +28,7 @@ pub(crate) fn module(bands: usize, product: CosineProduct) -> String {
     clamped_cosine::scales(&mut cosine);
     let about: Vec<_> =
         (0..all).map(|i| format!("{:?} * y[{i}]", cosine[i.isqrt()] as f32)).collect();
-    let in_frame = matches!(product, CosineProduct::Local | CosineProduct::Turned);
+    let in_frame = product.is_in_frame();
     // About the normal coefficients are scales times Y_l0, which is √((2l + 1)/4π) there.
     let grazing = mirrored_grazing(bands).into_iter().enumerate().map(|(l, coefficient)| {
         if in_frame { coefficient } else { coefficient / addition(l).sqrt() }

@@ -193,7 +193,8 @@ fn scene_files_load() {
         let scene = load_path(&path).unwrap_or_else(|error| panic!("{error}"));
         let name = path.display().to_string();
         common::check_invariants(&scene, &name);
-        assert!(!scene.lights.is_empty() || scene.emissive_triangles().next().is_some(), "{name}");
+        let is_lit = !scene.lights.is_empty() || scene.all_area_lights().next().is_some();
+        assert!(is_lit, "{name}");
         assert!(scene.cameras.iter().all(|camera| camera.name != "framed"), "{name}");
     }
 }

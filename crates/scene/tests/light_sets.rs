@@ -370,7 +370,11 @@ fn wrong_lights_are_refused_with_their_line() {
         ("unknown variant `cubes`", "did you mean `spheres`?", set(RING, "cubes")),
         // Pictures.
         ("nowhere.png: ", "check the path", panel("count = 8\npicture = \"nowhere.png\"")),
-        ("hall.toml: data: ", "convert it to PNG or JPEG", panel("count = 8\npicture = \"hall.toml\"")),
+        (
+            "hall.toml: data: ",
+            "convert it to PNG or JPEG",
+            panel("count = 8\npicture = \"hall.toml\""),
+        ),
     ];
     for (problem, remedy, text) in cases {
         // Behind lines that shift all numbers, so that they are those of the table or of what is in it.

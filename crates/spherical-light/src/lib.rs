@@ -15,11 +15,20 @@
 //!   angle ([`lobes`](manylights_reflectance::lobes)); twice where some f0 has a colour, and for each channel
 //!   of a measurement.
 //!
+//! # The thesis' products
+//! With `product` other than `full` the pixel sums the coefficients L_lm of all lights and shades once: the SH
+//! product T of L and the clamped cosine, in one of five ways (4.1.3, [`CosineProduct`]), against the specular
+//! lobe without its cosine as a circular lobe about the mirror direction
+//! ([`mirror`](manylights_reflectance::mirror)). The irradiance is 2√π T_00 (4.4), or of three bands of its own
+//! (`diffuse = three-bands`); under a specular layer the transmission towards the light is a second zonal sum.
+//! The ways that expand the cosine (`general`, `4.5`, `4.5-cut`) go up to 9 bands.
+//!
 //! # What it converges to
 //! For `bands` → ∞ to the integral of f_x cos⁺ over the spheres' caps: the truth of transport `direct`
 //! without occlusion. Since the cosine is in the lobe, n bands of it are exact for a light of n bands. What n
 //! bands leave of a Lambertian surface is 0.8 % at a half-angle of 0.2 and 9 bands; of glossy ones the more
-//! the narrower the lobe: `tests/floors.rs`.
+//! the narrower the lobe: `tests/floors.rs`. The thesis' products keep the floor of their circular lobe, 20–35 %
+//! on rough surfaces whatever the bands: `tests/products.rs`.
 //!
 //! # Hard cases
 //! - Inside the sphere and on it (d ≤ r) it covers the hemisphere about the direction to its centre, at the
@@ -58,6 +67,7 @@ use manylights_reflectance::{Materials, Tables};
 use manylights_scene::{AreaLight, Scene};
 
 pub use gather::{SphereLight, gather, linked_shader};
+pub use manylights_reflectance::{CosineProduct, Diffuse};
 pub use params::{Coefficients, Extent, MAX_BANDS, Narrow, Product, Settings};
 
 /// Lobes of a smaller roughness are narrow.

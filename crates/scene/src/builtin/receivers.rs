@@ -1,4 +1,4 @@
-//! Eight spheres on a floor under five spheres of light: seven lacquers of roughness 0.1 … 1 and a
+//! Eight spheres on a floor before a wall, under five spheres of light: seven lacquers of roughness 0.1 … 1 and a
 //! Lambertian one. Their gloss and their colour go from the left to the right and from the front row
 //! to the back.
 //!
@@ -37,7 +37,10 @@ const LIGHTS: [(Vec3, f32, Vec3); 5] = [
 pub(super) fn make() -> Scene {
     let mut scene = Scene { name: "receivers".to_owned(), exposure: 1.0, ..Scene::default() };
     let floor = add(&mut scene, Material::lambert("floor", vec3(0.5, 0.48, 0.45)));
-    mesh::quad(&mut scene, vec3(-12.0, 0.0, -12.0), 24.0 * Vec3::Z, 24.0 * Vec3::X, floor);
+    let wall = add(&mut scene, Material::lambert("wall", vec3(0.32, 0.36, 0.42)));
+    let corner = vec3(-9.0, 0.0, -5.0);
+    mesh::quad(&mut scene, corner, 18.0 * Vec3::Z, 18.0 * Vec3::X, floor);
+    mesh::quad(&mut scene, corner, 18.0 * Vec3::X, 7.0 * Vec3::Y, wall);
     for (i, (roughness, color)) in RECEIVERS.into_iter().enumerate() {
         let material = match roughness {
             Some(roughness) => {
@@ -49,7 +52,7 @@ pub(super) fn make() -> Scene {
         let material = add(&mut scene, material);
         let (column, row) = ((i % 4) as f32, (i / 4) as f32);
         // The back row stands in the gaps of the front one.
-        let x = 1.3 * (column - 1.75 + 0.5 * row);
+        let x = 1.1 * (column - 1.75 + 0.5 * row);
         let center = vec3(x, RADIUS, 0.6 - 1.35 * row);
         mesh::icosphere(&mut scene, 4, material, |d| (center + RADIUS * d, d));
     }
@@ -60,8 +63,8 @@ pub(super) fn make() -> Scene {
     }));
     scene.cameras.push(Camera::look_at(
         "front",
-        vec3(0.0, 2.5, 6.0),
-        vec3(0.0, 0.42, -0.05),
+        vec3(0.0, 2.7, 7.4),
+        vec3(0.0, 0.62, -0.1),
         Vec3::Y,
         30_f32.to_radians(),
     ));
