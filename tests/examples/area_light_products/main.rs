@@ -2,26 +2,22 @@
 //! the full lobe; written to `results/throughput/area-light-products.md`. Run with
 //! `cargo run --release -p manylights-tests --example area_light_products`.
 
+mod lights;
 #[path = "../virtual_light_throughput/peak.rs"]
 mod peak;
+mod setting;
 
 use std::fmt::Write as _;
 
-use glam::Vec3;
-use manylights_area_lights::AreaLights;
-use manylights_gpu::{AdapterReport, SurfaceRecord, operations};
-use manylights_method::{Bake, Method, Parameters};
+use manylights_gpu::{AdapterReport, operations};
 use manylights_reflectance::{CosineProduct, Materials, ReceiverKinds};
-use manylights_scene::{AreaLight, Scene, Transport, Visibility};
-use manylights_spherical_light::{Product, Settings, SphericalLights, linked_shader};
+use manylights_spherical_light::{Product, Settings, linked_shader};
 use manylights_tests::{GPU, Stage};
 
-const RESOLUTION: [u32; 2] = [160, 120];
-const ROUNDS: usize = 5;
+use setting::{RESOLUTION, ROUNDS, Variant, medians, scene, shaded};
+
 const BANDS: [usize; 4] = [3, 5, 7, 9];
 const LIGHTS: [u32; 2] = [1, 32];
-const DIRECT: Transport = Transport::Direct { visibility: Visibility::Ignored };
-const METHOD: AreaLights<SphericalLights> = AreaLights(SphericalLights);
 
 /// Words of the parameter `product`, and the thesis' times at 3, 5, 7 and 9 bands, ms.
 const WAYS: [(&str, Product, Option<[f64; 4]>); 6] = [
@@ -33,74 +29,22 @@ const WAYS: [(&str, Product, Option<[f64; 4]>); 6] = [
     ("full", Product::Full, None),
 ];
 
-/// The built-in `trio`, glossy all over, under spheres of light.
-fn scene(lights: u32) -> Scene {
-    let mut scene = manylights_scene::load("trio", None).expect("built in");
-    scene.lights.clear();
-    for material in &mut scene.materials {
-        if !material.brdf(material.base_color).has_specular() {
-            (material.specular, material.roughness) = (1.0, 0.5);
-        }
-        material.roughness = material.roughness.max(0.3);
-    }
-    let sphere = |i: u32| {
-        let (sin, cos) = (2.4 * i as f32).sin_cos();
-        AreaLight::Sphere {
-            center: Vec3::new(2.0 * cos, 2.0, 2.0 * sin),
-            radius: 0.2,
-            radiance: Vec3::splat(20.0 / lights as f32),
-        }
-    };
-    scene.area_lights = (0..lights).map(sphere).collect();
-    scene
-}
-
 /// A way with a number of bands, its tables made.
 struct Column {
     way: usize,
     bands: usize,
-    bake: Box<dyn Bake>,
-    parameters: Parameters,
+    variant: Variant,
 }
 
 fn columns(stage: &Stage) -> Vec<Column> {
     let mut columns = Vec::new();
     for bands in BANDS {
         for (way, (word, ..)) in WAYS.iter().enumerate() {
-            let texts = [("bands", bands.to_string()), ("product", (*word).to_owned())];
-            let texts = texts.iter().map(|(name, text)| (*name, &**text));
-            let parameters = Parameters::new(METHOD.parameters(), texts).expect("in range");
-            let baking = METHOD.baking().expect("tables");
-            let bake = baking.bake(&stage.frame(DIRECT, 0), &parameters).expect("tables");
-            columns.push(Column { way, bands, bake, parameters });
+            let texts = [("bands", &*bands.to_string()), ("product", word)];
+            columns.push(Column { way, bands, variant: Variant::new(stage, &texts) });
         }
     }
     columns
-}
-
-/// Seconds of the gather of one picture.
-fn measure(stage: &Stage, column: &Column) -> f64 {
-    let frame = stage.frame(DIRECT, 0);
-    let mut run = column.bake.prepare(&frame, &column.parameters).expect("a run");
-    while !run.step().expect("a step").finished() {}
-    let times = run.pass_times();
-    times.iter().find(|time| time.pass == "gather").expect("a gather").seconds
-}
-
-/// Medians of interleaved rounds; the first compiles.
-fn medians(stage: &Stage, columns: &[Column]) -> Vec<f64> {
-    let mut seconds = vec![Vec::new(); columns.len()];
-    for _ in 0..=ROUNDS {
-        for (seconds, column) in seconds.iter_mut().zip(columns) {
-            seconds.push(measure(stage, column));
-        }
-    }
-    let median = |mut rounds: Vec<f64>| {
-        rounds.remove(0);
-        rounds.sort_by(f64::total_cmp);
-        rounds[ROUNDS / 2]
-    };
-    seconds.into_iter().map(median).collect()
 }
 
 /// On floats, of a pixel under so many lights: what each light adds, and what their sum becomes.
@@ -119,9 +63,9 @@ fn floats(kinds: ReceiverKinds, column: &Column, lights: u32) -> u64 {
 fn lines(stage: &Stage, lights: u32, columns: &[Column], peak: f64) -> String {
     let kinds = Materials::of_scene(&stage.scene).kinds();
     let counts: Vec<_> = columns.iter().map(|column| floats(kinds, column, lights)).collect();
-    let seconds = medians(stage, columns);
-    let shaded = |surface: &&SurfaceRecord| surface.triangle != SurfaceRecord::NO_TRIANGLE;
-    let pixels = stage.surfaces().iter().filter(shaded).count() as f64;
+    let variants: Vec<_> = columns.iter().map(|column| (stage, &column.variant)).collect();
+    let seconds = medians(&variants);
+    let pixels = shaded(stage);
     let mut text = String::new();
     for ((column, &time), count) in columns.iter().zip(&seconds).zip(counts) {
         let (word, _, thesis) = WAYS[column.way];
@@ -208,6 +152,7 @@ fn main() {
         counts(),
     )
     .expect("writing to a string");
+    text += &lights::section();
     let folder = "results/throughput";
     std::fs::create_dir_all(folder).expect("the results folder can be made");
     std::fs::write(format!("{folder}/area-light-products.md"), &text)
