@@ -24,9 +24,33 @@ fn listed(experiment: &toml::Table) -> BTreeSet<[String; 2]> {
     listed
 }
 
+/// The words that a method is listed with, where all its entries agree on one: what a scene needs so that
+/// the method takes it.
+fn words(experiment: &toml::Table, id: &str) -> Vec<(String, String)> {
+    let entries = experiment["methods"].as_array().expect("methods").iter();
+    let mut entries = entries.filter(|entry| entry["id"].as_str() == Some(id));
+    let of = |entry: &toml::Value, name: &str| {
+        let value = entry.get("parameters")?.get(name)?;
+        value.as_str().map(str::to_owned)
+    };
+    let Some(first) = entries.next() else { return Vec::new() };
+    let rest: Vec<_> = entries.collect();
+    let names = first.get("parameters").and_then(toml::Value::as_table).into_iter().flatten();
+    names
+        .filter_map(|(name, _)| Some((name.clone(), of(first, name)?)))
+        .filter(|(name, word)| rest.iter().all(|entry| of(entry, name).as_ref() == Some(word)))
+        .collect()
+}
+
 /// Whether a method renders one of the scenes.
-fn renders(method: &dyn Method, stages: &[Stage], transport: Transport) -> bool {
-    stages.iter().any(|stage| match stage.prepare(method, &[], transport, 0) {
+fn renders(
+    method: &dyn Method,
+    stages: &[Stage],
+    transport: Transport,
+    words: &[(String, String)],
+) -> bool {
+    let words: Vec<_> = words.iter().map(|(name, word)| (&**name, &**word)).collect();
+    stages.iter().any(|stage| match stage.prepare(method, &words, transport, 0) {
         Ok(_) => true,
         Err(Error::Declined(_)) => false,
         Err(error) => panic!("{}: {error}", method.id()),
@@ -50,8 +74,9 @@ fn guarded(folder: &str) -> BTreeSet<&'static str> {
     let listed = listed(&experiment);
     let mut guarded = BTreeSet::new();
     for method in METHODS {
+        let words = words(&experiment, method.id());
         for visibility in [Visibility::Traced, Visibility::Ignored] {
-            if renders(*method, &stages, transport.with_visibility(visibility)) {
+            if renders(*method, &stages, transport.with_visibility(visibility), &words) {
                 let asked = [method.id().to_owned(), visibility.to_string()];
                 assert!(listed.contains(&asked), "results/{folder} does not run {asked:?}");
                 guarded.insert(method.id());

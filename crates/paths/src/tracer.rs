@@ -23,7 +23,7 @@ const GROUP_EMITTER: u32 = 0;
 const GROUP_BEAM: u32 = 1;
 /// First of the groups of bounces.
 const GROUP_BOUNCES: u32 = 2;
-/// Group of sample points for lights that are no surfaces, above all bounces.
+/// Group of sample points for lights sampled by solid angle, above all bounces.
 const GROUP_AREA_LIGHT: u32 = u32::MAX;
 /// Group of sample points for directions that look for them.
 const GROUP_AREA_LIGHT_SEARCH: u32 = u32::MAX - 1;

@@ -11,9 +11,7 @@
 //! cosine, then the lobe, as the thesis has it. (Cosine times lobe first would be one channel instead of three,
 //! for every rival alike; but then the cosine may as well be in the lobe's table.)
 
-use manylights_harmonics::wgsl::{self, CUT, Function, Operations};
-
-use crate::product_wgsl;
+use manylights_harmonics::wgsl::{CUT, Function, Operations};
 
 /// How a light's coefficients are multiplied with the clamped cosine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,25 +72,8 @@ impl CosineProduct {
         ]
     }
 
-    /// Names and texts of what `product` imports, made for a number of bands: `sh`, which has `CapScalesOf`
-    /// beside, `sh_cut` for [`CUT`] bands at most, and `product_sums`.
-    pub fn modules(self, bands: usize) -> [(&'static str, String); 3] {
-        let mut functions = vec![Function::CapScalesOf];
-        functions.extend(self.steps());
-        functions.extend(match self {
-            Self::Local => [Function::EvaluateEven, Function::BandsEven],
-            Self::Turned => [Function::Evaluate, Function::BandsEven],
-            _ => [Function::Evaluate, Function::Bands],
-        });
-        [
-            ("sh", wgsl::module(bands, &functions)),
-            ("sh_cut", wgsl::module(bands.min(CUT), &[Function::Evaluate, Function::Bands])),
-            ("product_sums", product_wgsl::module(bands, self)),
-        ]
-    }
-
     /// What makes the product of a light's coefficients.
-    fn steps(self) -> &'static [Function] {
+    pub(crate) fn steps(self) -> &'static [Function] {
         match self {
             Self::General => &[Function::Product],
             Self::Folded => &[Function::CosineProduct],

@@ -1,10 +1,29 @@
-//! The sums of `shaders/product.wesl` whose lengths and constants depend on the bands.
+//! What `shaders/product.wesl` imports: modules whose lengths and constants depend on the bands.
 
-use manylights_harmonics::wgsl::CUT;
+use manylights_harmonics::wgsl::{self, CUT, Function};
 use manylights_harmonics::{clamped_cosine, count, even_count, even_index};
 
 use crate::diffuse::{addition, lobes, mirrored_grazing};
 use crate::{CosineProduct, Damping};
+
+impl CosineProduct {
+    /// Names and texts of what `product` imports, made for a number of bands: `sh`, which has `CapScalesOf`
+    /// beside, `sh_cut` for [`CUT`] bands at most, and `product_sums`.
+    pub fn modules(self, bands: usize) -> [(&'static str, String); 3] {
+        let mut functions = vec![Function::CapScalesOf];
+        functions.extend(self.steps());
+        functions.extend(match self {
+            Self::Local => [Function::EvaluateEven, Function::BandsEven],
+            Self::Turned => [Function::Evaluate, Function::BandsEven],
+            _ => [Function::Evaluate, Function::Bands],
+        });
+        [
+            ("sh", wgsl::module(bands, &functions)),
+            ("sh_cut", wgsl::module(bands.min(CUT), &[Function::Evaluate, Function::Bands])),
+            ("product_sums", sums(bands, self)),
+        ]
+    }
+}
 
 /// A module with, for `S` coefficients of a light, those of m ≥ 0 where it is summed in the surface's frame,
 /// - `Sum`: `light: array<vec3f, S>`;
@@ -15,7 +34,7 @@ use crate::{CosineProduct, Damping};
 ///   about the normal, or from the product in the surface's frame;
 /// - `first_bands(light) -> array<vec3f, M>` and `three_bands`: of M coefficients, the double product with
 ///   x cos⁺ − y cos⁺ (1 − cos)⁵, from sums about the normal or from a light in the surface's frame.
-pub(crate) fn module(bands: usize, product: CosineProduct) -> String {
+fn sums(bands: usize, product: CosineProduct) -> String {
     let (all, half, cut) = (count(bands), even_count(bands), bands.min(CUT));
     let size = if product.is_local() { half } else { all };
     let orders = |l: usize| if product.is_local() { l + 1 } else { 2 * l + 1 };
