@@ -26,7 +26,8 @@ fn lists_are_json_where_asked() {
     assert_eq!(words.iter().map(|w| &w["word"]).collect::<Vec<_>>(), ["full", "zonal"]);
     assert!(words.iter().all(|word| word["help"].is_string()));
     let scenes = json(&["list", "scenes", "--json"]);
-    for scene in ["integrating-sphere", "cornell", "cornell-glossy", "atrium", "trio"] {
+    for scene in ["integrating-sphere", "cornell", "cornell-glossy", "atrium", "trio", "receivers"]
+    {
         assert!(scenes.as_array().expect("a list").iter().any(|s| s["name"] == scene), "{scene}");
     }
     let experiments = json(&["list", "experiments", "--json"]);

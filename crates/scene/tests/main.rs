@@ -9,6 +9,7 @@ mod gltf_import;
 mod gltf_notes;
 mod gltf_structure;
 mod gltf_values;
+mod light_refusals;
 mod light_sets;
 mod lights;
 mod measured;
