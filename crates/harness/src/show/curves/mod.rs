@@ -20,7 +20,12 @@ use raster::Raster;
 const FACET: (u32, u32) = (460, 300);
 const HEAD: u32 = 40;
 const LEGEND_LINE: u32 = 24;
-const LEGEND_COLUMN: u32 = 300;
+/// Of a sample, and of a letter of its name at most.
+const LEGEND_SAMPLE: u32 = 56;
+const LEGEND_LETTER: u32 = 9;
+
+const FLOOR_NAME: &str = "noise floor of the reference";
+
 /// The figure: for each scene a row, for each reference its error against time, then against the
 /// amount of work.
 pub(crate) struct Figure<'f> {
@@ -63,8 +68,15 @@ impl<'f> Figure<'f> {
         Against::ALL.len() * self.experiment.references.len()
     }
 
+    /// Width of a column of the legend: the longest name fits.
+    fn legend_column(&self) -> u32 {
+        let letters = self.series.iter().map(|curve| curve.name.chars().count());
+        let longest = letters.max().unwrap_or(0).max(FLOOR_NAME.len());
+        LEGEND_SAMPLE + LEGEND_LETTER * longest as u32
+    }
+
     fn per_line(&self) -> usize {
-        (self.columns() as u32 * FACET.0 / LEGEND_COLUMN) as usize
+        (self.columns() as u32 * FACET.0 / self.legend_column()).max(1) as usize
     }
 
     fn size(&self) -> (u32, u32) {
@@ -93,7 +105,7 @@ impl<'f> Figure<'f> {
     fn draw_legend<B: DrawingBackend>(&self, area: &Canvas<B>) -> Drawn<B> {
         let per_line = self.per_line();
         let place = |index: usize| {
-            let x = 40 + (index % per_line) as i32 * LEGEND_COLUMN as i32;
+            let x = 40 + (index % per_line) as i32 * self.legend_column() as i32;
             (x, 14 + (index / per_line) as i32 * LEGEND_LINE as i32)
         };
         let text = (FONT, 13).into_font().color(&TEXT).pos(Pos::new(HPos::Left, VPos::Center));
@@ -106,7 +118,7 @@ impl<'f> Figure<'f> {
         }
         let (x, y) = place(self.series.len());
         draw_sample(area, (x, y), Some((6, 4)), FLOOR.stroke_width(1))?;
-        area.draw(&Text::new("noise floor of the reference", (x + 40, y), text))
+        area.draw(&Text::new(FLOOR_NAME, (x + 40, y), text))
     }
 }
 
