@@ -38,7 +38,7 @@ pub enum ParameterKind {
 /// One of the words that a [`ParameterKind::Choice`] may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChoiceWord {
-    /// As it is written: lower case and digits.
+    /// As it is written: lower case and digits, or the number of an equation.
     pub word: &'static str,
     /// What it chooses, in a line, with its source.
     pub help: &'static str,
