@@ -20,6 +20,7 @@ pub mod convolution;
 pub mod dering;
 pub mod hemispherical;
 mod lanes;
+pub mod polygon;
 pub mod product;
 pub mod projection;
 pub mod quadrature;
