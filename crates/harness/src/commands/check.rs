@@ -11,7 +11,8 @@ use crate::measurement::cell::{Cell, Outcome};
 use crate::measurement::lines;
 use crate::measurement::session::Session;
 use crate::output::{self, print_json, say};
-use crate::question::experiment::{self, Experiment, Profile};
+use crate::question::experiment::{self, Experiment};
+use crate::question::profiles::Profile;
 use crate::registry::Methods;
 use clap::Args;
 

@@ -16,8 +16,9 @@ use crate::measurement::cell::{Done, Outcome};
 use crate::measurement::scene_cells::SceneCells;
 use crate::measurement::session::Session;
 use crate::question::columns::Column;
-use crate::question::experiment::{self, Experiment, Profile};
+use crate::question::experiment::{self, Experiment};
 use crate::question::plan::{Bounded, Budget, Variant};
+use crate::question::profiles::Profile;
 use crate::registry::METHODS;
 use crate::show::table;
 

@@ -15,8 +15,9 @@ use crate::measurement::measure;
 use crate::measurement::stage::Stage;
 use crate::output::say;
 use crate::progress::ProgressBar;
-use crate::question::experiment::{Experiment, REFERENCE_SEED};
+use crate::question::experiment::Experiment;
 use crate::question::plan::Variant;
+use crate::question::profiles::REFERENCE_SEED;
 use crate::question::references::{Reference, Source};
 
 /// What the pictures of a scene are compared with: the picture of the path tracer, converged as far as

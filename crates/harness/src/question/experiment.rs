@@ -56,25 +56,18 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use manylights_path_tracer as path_tracer;
 use manylights_scene::Transport;
 use serde::Deserialize;
 
 use crate::names;
 use crate::question::columns::Column;
 use crate::question::crops::Crop;
-use crate::question::plan::{Budget, Variant};
+use crate::question::plan::Variant;
+use crate::question::profiles::{Profile, Profiles, Scale, distinct};
 use crate::question::published::{self, Published};
 use crate::question::references::{self, Reference};
-use crate::question::settings;
 use crate::question::sweep::MethodEntry;
 use crate::registry::Methods;
-
-/// Seed of every reference. No cell may use it: its samples would agree with the reference's.
-pub(crate) const REFERENCE_SEED: u64 = 0x7265_6665;
-
-/// Side of the window of SSIM.
-const MIN_SIDE: u32 = 11;
 
 /// A checked experiment in one profile.
 #[derive(Debug)]
@@ -121,31 +114,6 @@ impl Experiment {
     }
 }
 
-/// How large an experiment is.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Scale {
-    /// Width, height in pixels.
-    pub(crate) resolution: [u32; 2],
-    /// Samples a pixel of the references; once checked, those that they have: whole slices.
-    pub(crate) reference_samples: u32,
-    /// Timed runs of each cell.
-    pub(crate) repetitions: u32,
-    /// One picture for each.
-    pub(crate) seeds: Vec<u64>,
-    /// Of methods with a time budget.
-    #[serde(default)]
-    times: Vec<Time>,
-}
-
-/// A time budget as written.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged, expecting = "a time is a number of seconds or \"baseline\"")]
-enum Time {
-    Seconds(f64),
-    Of(String),
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -170,25 +138,6 @@ struct File {
     profiles: Profiles,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Profiles {
-    quick: Option<Scale>,
-    standard: Option<Scale>,
-    paper: Option<Scale>,
-}
-
-/// How much an experiment may cost: `[profiles.NAME]` of its file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Profile {
-    /// Seconds to minutes, on any machine.
-    Quick,
-    /// The size that conclusions are drawn from.
-    Standard,
-    /// The size of the published figures.
-    Paper,
-}
-
 /// Reads and checks an experiment file.
 ///
 /// # Errors
@@ -211,23 +160,13 @@ pub(crate) fn summary(path: &Path) -> Result<(String, Vec<String>), String> {
 
 fn parse(text: &str, profile: Profile, methods: Methods) -> Result<Experiment, String> {
     let file: File = toml::from_str(text).map_err(|error| mend(text, &error))?;
-    let (name, scale) = match profile {
-        Profile::Quick => ("quick", file.profiles.quick),
-        Profile::Standard => ("standard", file.profiles.standard),
-        Profile::Paper => ("paper", file.profiles.paper),
-    };
-    let scale = scale.ok_or_else(|| format!("no profile `{name}`: add [profiles.{name}]"))?;
-    check_scale(name, &scale)?;
-    // What references have, so that tables say it.
-    let reference_samples = path_tracer::Settings::whole_samples(scale.reference_samples);
-    let scale = Scale { reference_samples, ..scale };
+    let (name, scale) = file.profiles.checked(profile)?;
     if file.scenes.is_empty() || file.methods.is_empty() || file.references.is_empty() {
         return Err("`scenes`, `methods` and `references` each need at least one entry".into());
     }
     distinct("cameras", &file.cameras)?;
     let transport: Transport = file.transport.parse()?;
-    let times = times(&scale.times)?;
-    distinct("times", &times)?;
+    let times = scale.times()?;
     distinct("errors", &file.errors)?;
     distinct("columns", file.columns.as_deref().unwrap_or_default())?;
     let mut variants = Vec::new();
@@ -272,33 +211,6 @@ fn parse(text: &str, profile: Profile, methods: Methods) -> Result<Experiment, S
     })
 }
 
-fn check_scale(name: &str, scale: &Scale) -> Result<(), String> {
-    let at = |reason: &str| Err(format!("profiles.{name}: {reason}"));
-    settings::check_resolution(scale.resolution)
-        .map_err(|reason| format!("profiles.{name}: {reason}"))?;
-    if scale.resolution.iter().any(|&side| side < MIN_SIDE) {
-        return at("resolution: SSIM needs pictures of 11×11 pixels or more");
-    }
-    if scale.repetitions == 0 || scale.seeds.is_empty() {
-        return at("at least one repetition and one seed are needed");
-    }
-    distinct("seeds", &scale.seeds).map_err(|reason| format!("profiles.{name}: {reason}"))?;
-    if scale.reference_samples < 2 {
-        return at("`reference_samples` must be at least 2: a reference is two halves");
-    }
-    if scale.seeds.contains(&REFERENCE_SEED) {
-        return at("a seed is that of the references: choose another");
-    }
-    Ok(())
-}
-
-/// What is listed twice would count twice: the same seed is no second sample.
-fn distinct<T: PartialEq + std::fmt::Debug>(list: &str, values: &[T]) -> Result<(), String> {
-    let twice = values.iter().enumerate().find(|(index, value)| values[..*index].contains(value));
-    let words = |value: &T| format!("{value:?}").trim_matches('"').to_owned();
-    twice.map_or(Ok(()), |(_, value)| Err(format!("{list}: `{}` is listed twice", words(value))))
-}
-
 impl Experiment {
     /// Refuses what is said of scenes that are not among `scenes`, and of pictures that are not among
     /// `views`: scenes seen by the cameras that are listed.
@@ -319,19 +231,6 @@ impl Experiment {
         }
         Ok(())
     }
-}
-
-fn times(written: &[Time]) -> Result<Vec<Budget>, String> {
-    written
-        .iter()
-        .map(|time| match time {
-            Time::Seconds(seconds) if seconds.is_finite() && *seconds > 0.0 => {
-                Ok(Budget::Seconds(*seconds))
-            }
-            Time::Of(name) if name == "baseline" => Ok(Budget::Baseline),
-            _ => Err("times: write positive numbers of seconds or \"baseline\"".into()),
-        })
-        .collect()
 }
 
 fn baseline(
@@ -360,6 +259,7 @@ fn mend(text: &str, error: &toml::de::Error) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::question::profiles::REFERENCE_SEED;
     use crate::registry::METHODS;
 
     const GOOD: &str = r#"

@@ -5,6 +5,7 @@ pub(crate) mod crops;
 pub(crate) mod experiment;
 pub(crate) mod jobs;
 pub(crate) mod plan;
+pub(crate) mod profiles;
 pub(crate) mod published;
 pub(crate) mod recorded_value;
 pub(crate) mod references;

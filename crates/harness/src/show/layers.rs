@@ -23,7 +23,8 @@ use crate::measurement::pictures::image_path;
 use crate::measurement::scene_cells::SceneCells;
 use crate::output::say;
 use crate::progress::ProgressBar;
-use crate::question::experiment::{Experiment, REFERENCE_SEED};
+use crate::question::experiment::Experiment;
+use crate::question::profiles::REFERENCE_SEED;
 
 /// Writes the layers of all variants that have a picture and none yet. Direct light comes from the path tracer and
 /// is kept in `cache`, as references are.

@@ -12,8 +12,9 @@ use crate::measurement::lines;
 use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::SceneCells;
 use crate::output::say;
-use crate::question::experiment::{self, Experiment, Profile};
+use crate::question::experiment::{self, Experiment};
 use crate::question::plan::Turn;
+use crate::question::profiles::Profile;
 use crate::registry::Methods;
 
 /// What `manylights run` left in a folder.
