@@ -1,8 +1,9 @@
 //! Seconds that a reference of direct light takes, over the number of lights with a surface.
 //!
-//! `area_light_time [LIGHTS...]` (2 500 by default) prints for each number and shape of lights above a
-//! Lambertian and a rough metallic floor the seconds for 16 samples of each light at 32 × 32 pixels, both
-//! visibilities, and nanoseconds a sample, pixel and light.
+//! `area_light_time [LIGHTS...]` (625 and 2 500 by default) prints, as a table for
+//! `results/path-tracer/area-lights.md`, for each number and shape of lights above a Lambertian and a rough
+//! metallic floor the seconds of 16 samples at 32 × 32 pixels, both visibilities, and where all lights are
+//! summed nanoseconds a sample, pixel and light.
 
 use std::error::Error;
 use std::time::Instant;
@@ -21,10 +22,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         counts.push(argument.parse::<u32>()?);
     }
     if counts.is_empty() {
-        counts.push(2500);
+        counts.extend([625, 2500]);
     }
     let gray = Vec3::splat(0.5);
     let materials = [Material::lambert("Lambertian", gray), Material::metal("metal", gray, 0.4)];
+    println!("| lights | floor | visibility | s | ns a sample, pixel and light |");
+    println!("|---|---|---|---:|---:|");
     for count in counts {
         for (shape, light) in
             [("spheres", sphere as fn(u32, u32) -> AreaLight), ("triangles", triangle)]
@@ -36,9 +39,13 @@ fn main() -> Result<(), Box<dyn Error>> {
                     let seconds = seconds(&scene, visibility)?;
                     let samples = RESOLUTION[0] * RESOLUTION[1] * SLICE;
                     let share = 1e9 * seconds / (f64::from(samples) * f64::from(count));
+                    let share = match visibility {
+                        Visibility::Ignored => format!("{share:.1}"),
+                        Visibility::Traced => "one light a sample".to_owned(),
+                    };
+                    let name = &material.name;
                     println!(
-                        "{count} {shape}, {} floor, {visibility}: {seconds:.2} s, {share:.1} ns",
-                        material.name
+                        "| {count} {shape} | {name} | {visibility} | {seconds:.3} | {share} |"
                     );
                 }
             }
