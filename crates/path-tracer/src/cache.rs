@@ -14,7 +14,7 @@ use crate::{Error, Settings};
 
 /// Of references and of the pictures of the method `reference`: raised whenever the same inputs give
 /// other sums.
-pub const REFERENCE_VERSION: u32 = 3;
+pub const REFERENCE_VERSION: u32 = 4;
 
 const MAGIC: [u8; 8] = *b"MLREF\0\0\x01";
 const HEADER: usize = MAGIC.len() + KEY + size_of::<u32>();

@@ -85,12 +85,13 @@ impl AreaLights {
         numbers: &[[f32; 2]],
         scatters: &[Option<Scatter>],
     ) -> DVec3 {
+        // Also where all draws come to nothing: a weight that hangs on them is biased.
+        let competes = !scatters.is_empty();
         let scatters: Vec<_> = scatters
             .iter()
             .flatten()
             .map(|scatter| (scatter, scatter.direction.as_dvec3().normalize()))
             .collect();
-        let competes = !scatters.is_empty();
         let mut sum = DVec3::ZERO;
         for source in &self.lights {
             let Some(subtended) = source.seen_from(point) else { continue };

@@ -47,9 +47,12 @@ fn atan_less_argument<T: Real>(q: T) -> T {
 
 /// Irradiance of a planar polygon of unit radiance, sr (Lambert 1760): what of it lies above the plane
 /// through the origin with the unit `normal`, on which the receiver lies. The corners are relative to the
-/// receiver, counter-clockwise seen from the front; zero from behind.
+/// receiver, counter-clockwise seen from the front, in any unit of length, with coordinates up to a quarter
+/// of the largest number; zero from behind. Where the receiver lies on the polygon itself there is a jump:
+/// if parallel to it, the limit from the front, else any value from 0 to π.
 pub fn polygon_irradiance<T: Real>(normal: [T; 3], corners: &[[T; 3]]) -> T {
-    let corners = above_horizon(normal, corners);
+    // Directions alone count from here on; of their lengths no product over- or underflows.
+    let corners: Vec<_> = above_horizon(normal, corners).into_iter().map(near_unit).collect();
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     // The front turns clockwise where its normal points to the receiver.
     let edge = |(a, b): (&[T; 3], &[T; 3])| {
@@ -61,6 +64,14 @@ pub fn polygon_irradiance<T: Real>(normal: [T; 3], corners: &[[T; 3]]) -> T {
         length.atan2(dot(*a, *b)) * dot(across, normal) / length
     };
     (-T::of(0.5) * edges.map(edge).sum::<T>()).max(T::zero())
+}
+
+/// The same direction with a largest coordinate from 1 to 2, by a power of two, which rounds nothing; 0
+/// stays 0.
+fn near_unit<T: Real>(vector: [T; 3]) -> [T; 3] {
+    let largest = vector.iter().fold(T::min_positive_value(), |most, c| most.max(c.abs()));
+    let exponent = largest.log2().floor().to_i32().expect("of a finite number");
+    vector.map(|coordinate| coordinate * T::of(2.0).powi(-exponent))
 }
 
 /// The part of a polygon above a plane through the origin (Sutherland and Hodgman 1974).
