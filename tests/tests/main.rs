@@ -1,5 +1,6 @@
 //! All tests that span crates in one executable: each of its own links everything anew.
 
+mod area_lights;
 mod check_experiment;
 mod conformance;
 mod contact_shadows;

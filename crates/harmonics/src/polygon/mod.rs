@@ -11,8 +11,9 @@
 //! al. 2012). All of this is linear in the lights: sums over lights may be made of the S_l, and A_l be applied
 //! once.
 //!
-//! In f64 to 1e-12 of the largest coefficient. In f32 the edges' sums cancel for far polygons: 1e-5 at a
-//! distance of ten sizes, 1e-3 at a hundred.
+//! In f64 within 1e-11 of quadrature. In f32 the edges' sums cancel for far polygons: relative to what a
+//! square of a polygon's size that faces the point covers, the error is 3e-6 at one size, 4e-5 at ten and
+//! 3e-3 at a hundred.
 
 mod directions;
 mod edge;
