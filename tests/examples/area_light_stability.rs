@@ -7,7 +7,9 @@ use std::fmt::Write as _;
 use glam::{Quat, Vec3};
 use manylights_gpu::{AdapterReport, SurfaceRecord};
 use manylights_scene::{Brdf, Lobe};
-use manylights_spherical_light::{Coefficients, Extent, Settings, SphereLight, gather, oracle};
+use manylights_spherical_light::{
+    Coefficients, CosineProduct, Extent, Product, Settings, SphereLight, gather, oracle,
+};
 use manylights_tests::GPU;
 
 const STEPS: u32 = 400;
@@ -115,22 +117,30 @@ fn main() {
         "# spherical-light: hard cases\n\n\
          `cargo run --release -p manylights-tests --example area_light_stability` on {name} ({driver} \
          {driver_info}).\n\n\
-         Nine bands; {STEPS} receivers along each path, on a Lambertian surface and on GGX of roughness 1, \
+         Nine bands, five of 4.5; {STEPS} receivers along each path, on a Lambertian surface and on GGX of roughness 1, \
          0.3 and 0.1. Values are radiances over the square of the sine r/d, so that a far light counts as \
-         much as a near one. Given is the largest difference of the adapter's f32 to the f64 oracle in each \
-         form of the coefficients, then the largest step from one receiver to the next, of the adapter and of \
+         much as a near one. Given is the largest difference of the adapter's f32 to the f64 oracle, of the \
+         full lobe in each form of the coefficients and with discs for spheres, of the product 4.6 in the \
+         surface's frame and of 4.5 in the world's, then the largest step from one receiver to the next, of the adapter and of \
          the oracle (sphere, analytic), all relative to the largest value of the path. Where the steps agree \
          none is the adapter's own.\n\n\
-         | path | sphere | tabulated | disc | step | oracle's step | non-finite |\n|---|---|---|---|---|---|---|\n"
+         | path | sphere | tabulated | disc | tabulated disc | 4.6 | 4.5 | step | oracle's step | non-finite \
+         |\n|---|---|---|---|---|---|---|---|---|---|\n"
     );
+    let full = Settings::default();
+    let product = |product, bands| Settings { bands, product: Product::Cosine(product), ..full };
+    let tabulated = Settings { coefficients: Coefficients::Tabulated, ..full };
     let settings = [
-        Settings::default(),
-        Settings { coefficients: Coefficients::Tabulated, ..Settings::default() },
-        Settings { extent: Extent::Disc, ..Settings::default() },
+        full,
+        tabulated,
+        Settings { extent: Extent::Disc, ..full },
+        Settings { extent: Extent::Disc, ..tabulated },
+        product(CosineProduct::Local, 9),
+        product(CosineProduct::Folded, 5), // 9 bands take an adapter 20 s to compile
     ];
     let mut finite = true;
     for family in families() {
-        let (mut errors, mut jumps, mut non_finite) = ([0_f64; 3], [0_f64; 2], 0);
+        let (mut errors, mut jumps, mut non_finite) = ([0_f64; 6], [0_f64; 2], 0);
         for brdf in materials() {
             for (index, settings) in settings.iter().enumerate() {
                 let outcome = outcome(&family, brdf, settings);

@@ -1,6 +1,6 @@
 //! The specular lobe without its cosine as one circular lobe about the mirror direction (thesis 4.1.5): what
-//! the thesis multiplies the product of light and cosine with. It has a floor of 20–35 % on rough surfaces
-//! that no bands lower: the lobe is not circular there, and its peak leaves the mirror direction.
+//! the thesis multiplies the product of light and cosine with. It has a floor of 11–35 % at roughness 0.7 and 1,
+//! the same with 15 bands as with 9: the lobe is not circular there, and its peak leaves the mirror direction.
 
 use glam::DVec3;
 use rayon::prelude::*;

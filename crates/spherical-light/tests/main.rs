@@ -2,6 +2,7 @@
 
 mod bake;
 mod common;
+mod diffuse;
 mod floors;
 mod gather;
 mod hard_cases;
