@@ -227,6 +227,18 @@ fn a_check_passes_on_an_unchanged_tree_and_names_what_moved() {
     assert_eq!(output.status.code(), Some(1), "{errors}");
     assert!(errors.contains("trio reference samples=16  picture"), "{errors}");
     assert!(errors.contains("--bless"), "{errors}");
+
+    // A second baseline beside it, which holds: only the first is named.
+    let other = place.path("other");
+    std::fs::create_dir(&other).expect("writable");
+    let experiment = place.read("experiment.toml");
+    std::fs::write(place.path("other/experiment.toml"), experiment).expect("writable");
+    std::fs::write(place.path("other/cells.jsonl"), text).expect("writable");
+    let output = manylights(&["check", "--baseline", &other, &baseline]);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{errors}");
+    assert!(errors.contains(&format!("{other}: nothing moved")), "{errors}");
+    assert!(errors.contains(&format!("--baseline {baseline} --bless")), "{errors}");
 }
 
 #[test]
