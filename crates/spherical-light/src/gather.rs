@@ -9,6 +9,7 @@ use manylights_reflectance::{
     CosineProduct, Damping, Form, LOBES, MODULES, Materials, ReceiverKinds, SHAPES, Tables,
     diffuse, lobe_wgsl,
 };
+use manylights_scene::AreaLight;
 
 use crate::cap_table::{self, COEFFICIENTS, CapTable};
 use crate::{Coefficients, Extent, Product, Settings};
@@ -33,6 +34,16 @@ impl SphereLight {
     /// Of these.
     pub fn new(center: Vec3, radius: f32, radiance: Vec3) -> Self {
         Self { center, radius, radiance, padding: 0.0 }
+    }
+
+    /// `None` of a light that is no sphere.
+    pub fn of(light: &AreaLight) -> Option<Self> {
+        match *light {
+            AreaLight::Sphere { center, radius, radiance } => {
+                Some(Self::new(center, radius, radiance))
+            }
+            AreaLight::Triangle { .. } => None,
+        }
     }
 }
 

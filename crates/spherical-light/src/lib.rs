@@ -62,7 +62,7 @@ mod params;
 use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
 use manylights_gpu::Buffer;
 use manylights_harmonics::even_count;
-use manylights_method::{Error, ParameterInfo, Parameters};
+use manylights_method::{Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::{AreaLight, Scene};
 
@@ -84,32 +84,26 @@ impl Estimator for SphericalLights {
     const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     const TAKES: &'static str = "spheres";
-    type Light = SphereLight;
     type Tables = LobeTables;
 
-    fn light(light: &AreaLight) -> Option<SphereLight> {
-        match *light {
-            AreaLight::Sphere { center, radius, radiance } => {
-                Some(SphereLight::new(center, radius, radiance))
-            }
-            AreaLight::Triangle { .. } => None,
-        }
+    fn takes(light: &AreaLight) -> bool {
+        matches!(light, AreaLight::Sphere { .. })
     }
 
     fn start<'a>(
         frame: AreaLightFrame<'a>,
-        lights: Vec<SphereLight>,
         parameters: &Parameters,
         tables: &LobeTables,
-    ) -> Result<AreaLightRun<'a, SphereLight>, Error> {
+    ) -> Result<Box<dyn Run + 'a>, Error> {
         let settings = Settings::new(parameters);
-        let AreaLightFrame { scene, eye, on_gpu, pixels, .. } = frame;
+        let AreaLightFrame { scene, eye, on_gpu, pixels, lights } = frame;
         let kinds = Materials::of_scene(scene).kinds();
         let shader = linked_shader(kinds, &settings)?;
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
         let products = even_count(settings.bands) * kinds.channels();
-        Ok(AreaLightRun::new(on_gpu, gather, lights, products))
+        let records: Vec<_> = lights.iter().filter_map(SphereLight::of).collect();
+        Ok(Box::new(AreaLightRun::new(on_gpu, gather, (records, lights.len()), products)))
     }
 }
 
