@@ -18,6 +18,7 @@ pub mod product_oracle;
 mod product_wgsl;
 mod receiver;
 mod tables;
+pub mod transformed_cosine;
 pub mod zonal;
 
 /// Of the tables' coefficients: raised whenever the same lobe and number of bands give other ones.
@@ -43,10 +44,12 @@ pub const SHAPES: &str = "shapes";
 /// - `reflection`: its products with a cap of light;
 /// - `product`: with any light that is multiplied with the cosine first. It imports what
 ///   [`CosineProduct::modules`] makes;
+/// - `shape_number`: where a lobe stands in [`SHAPES`];
 /// - `arc_sine`: to 1e-7.
-pub const MODULES: [(&str, &str); 4] = [
+pub const MODULES: [(&str, &str); 5] = [
     ("receiver", include_str!("shaders/receiver.wesl")),
     ("reflection", include_str!("shaders/reflection.wesl")),
     ("product", include_str!("shaders/product.wesl")),
+    ("shape_number", include_str!("shaders/shape_number.wesl")),
     ("arc_sine", include_str!("shaders/arc_sine.wesl")),
 ];

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use glam::Vec3;
 use manylights_scene::{Brdf, Lobe, Material, Scene};
 
+use crate::transformed_cosine::{self, Table};
 use crate::{Damping, Form, LobeShape, Tables};
 
 /// The lobes that kernels must know of receivers.
@@ -116,6 +117,17 @@ impl Materials {
     pub fn mirror_records(&self, tables: &Tables, bands: usize) -> Vec<[f32; 2]> {
         let lobes = |&shape: &LobeShape| single(tables.mirror(shape, bands).values());
         self.shapes.iter().flat_map(lobes).collect()
+    }
+
+    /// The table [`crate::transformed_cosine::TRANSFORMED_LOBES`]: of Schlick's lobes; what stands for others has
+    /// no meaning.
+    pub fn transformed_records(&self) -> Vec<[f32; 4]> {
+        let lobes = |shape: &LobeShape| Table::shared().lobes(shape.record()[0].into());
+        self.shapes
+            .iter()
+            .flat_map(lobes)
+            .flat_map(|lobe| transformed_cosine::record(&lobe))
+            .collect()
     }
 }
 
