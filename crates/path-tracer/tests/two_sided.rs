@@ -172,7 +172,7 @@ fn a_panel_of_two_sides_is_two_panels_of_one() {
                     let deviation = (a + b).sqrt();
                     let what = format!("{panel:?}, {transport}, camera {camera}");
                     println!("{what}: {own} {other} ± {deviation}");
-                    assert!(deviation < 0.02 * own, "{what}: {deviation} of {own}");
+                    assert!(deviation < 0.03 * own, "{what}: {deviation} of {own}");
                     // The gap of the meshes moves them by 0.1 % of their distance.
                     let limit = 4.0 * deviation + 2e-3 * own;
                     assert!((own - other).abs() < limit, "{what}: {own} {other} ± {deviation}");
