@@ -7,6 +7,7 @@ mod determinism;
 mod emitters;
 mod integrating_sphere;
 mod transports;
+mod two_sided;
 
 #[path = "../../scene/tests/common/tensor.rs"]
 mod tensor;
