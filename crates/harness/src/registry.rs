@@ -2,6 +2,7 @@
 
 use manylights_area_lights::AreaLights;
 use manylights_hvl::Hvl;
+use manylights_ltc::Ltc;
 use manylights_method::Method;
 use manylights_path_tracer::PathTracer;
 use manylights_spherical_light::SphericalLights;
@@ -23,6 +24,7 @@ pub const METHODS: Methods = &[
     &VirtualLights(Hvl),
     &VirtualLights(Vsgl),
     &AreaLights(SphericalLights),
+    &AreaLights(Ltc),
 ];
 
 /// Where the method of this name stands in a list.

@@ -2,3 +2,9 @@
 
 mod common;
 mod gather;
+mod hard_cases;
+mod scenes;
+mod truth;
+
+#[path = "../../reflectance/examples/fit_transformed_cosines/triangles.rs"]
+mod triangles;

@@ -8,6 +8,9 @@ use manylights_reflectance::transformed_cosine::TransformedCosine;
 
 /// Irradiance of what a transform makes of a cap about `w` above the horizon.
 pub(super) fn irradiance(cosine: &TransformedCosine, w: DVec3, sine: f64) -> f64 {
+    if w.z <= -sine {
+        return 0.0;
+    }
     if sine >= 1.0 {
         return hemisphere(cosine, w);
     }

@@ -60,17 +60,11 @@ impl Target {
     /// ∫ |lobe − transformed cosine|^exponent over the directions above the horizon, where both have integral 1:
     /// of exponent 1 a bound for the error under any light, over that of a light all around.
     pub fn error(&self, cosine: &TransformedCosine, exponent: i32) -> f64 {
-        let above = self.above(cosine);
+        let above = cosine.above_horizon();
         let term = |node: &Node| {
             let difference = cosine.density(node.direction) / above - node.lobe;
             difference.abs().powi(exponent) * node.solid_angle
         };
-        self.nodes.iter().map(term).sum()
-    }
-
-    /// What of a transformed cosine lies above the horizon.
-    fn above(&self, cosine: &TransformedCosine) -> f64 {
-        let term = |node: &Node| cosine.density(node.direction) * node.solid_angle;
         self.nodes.iter().map(term).sum()
     }
 
@@ -100,7 +94,7 @@ impl Target {
             let found = starts.map(search).min_by(|(_, a), (_, b)| a.total_cmp(b));
             of(&found.expect("one start or two").0)
         };
-        let above = self.above(&cosine);
+        let above = cosine.above_horizon();
         TransformedLobe { cosine, magnitudes: self.albedo.map(|albedo| albedo / above) }
     }
 

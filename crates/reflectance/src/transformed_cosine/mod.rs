@@ -56,6 +56,13 @@ impl TransformedCosine {
         xx * zz - xz * zx
     }
 
+    /// What of it lies above the horizon, from 1/2 to 1: behind the transform a lune between two half-spaces, which
+    /// holds half of 1 and the height of the horizon's normal.
+    pub fn above_horizon(&self) -> f64 {
+        let ([xx, _], [zx, _]) = (self.across, self.along);
+        0.5 + 0.5 * xx / xx.hypot(zx)
+    }
+
     /// Of a unit vector, sr⁻¹: 1 in all over the sphere.
     pub fn density(&self, w: DVec3) -> f64 {
         let turned = self.apply(w);

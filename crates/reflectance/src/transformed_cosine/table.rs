@@ -135,3 +135,35 @@ pub fn at(lobes: &[TransformedLobe], cosine: f64) -> TransformedLobe {
     };
     TransformedLobe { cosine, magnitudes: mix(low.magnitudes, high.magnitudes) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows where lobes are narrow, in the middle, and widest: as the command made them.
+    #[test]
+    fn the_table_is_what_the_fit_makes() {
+        for row in [0, 21, ROUGHNESSES - 1] {
+            for (made, kept) in Table::fit_row(row).iter().zip(Table::shared().row(row)) {
+                for (made, kept) in made.iter().zip(kept) {
+                    // What libraries round differently moves the end of a search.
+                    let error = (made - kept).abs() / kept.abs().max(1.0);
+                    assert!(error < 1e-3, "{row}: {made} for {kept}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn another_fit_or_size_is_refused() {
+        let bytes = Table::shared().to_bytes();
+        assert_eq!(Table::from_bytes(&bytes).as_ref(), Some(Table::shared()));
+        let text = String::from_utf8_lossy(&bytes[..FINGERPRINT.len()]).replace("fit 1", "fit 0");
+        let older = [text.as_bytes(), &bytes[FINGERPRINT.len()..]].concat();
+        assert!(Table::from_bytes(&older).is_none());
+        for wrong in [&bytes[..bytes.len() - 4], &bytes[..bytes.len() - 1], &[]] {
+            assert!(Table::from_bytes(wrong).is_none());
+        }
+        assert!(Table::from_bytes(&[&bytes[..], &[0; 24]].concat()).is_none());
+    }
+}
