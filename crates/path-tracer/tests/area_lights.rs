@@ -49,7 +49,8 @@ fn sphere(center: [f32; 3], radius: f32) -> AreaLight {
 }
 
 fn triangle(corners: [[f32; 3]; 3]) -> AreaLight {
-    AreaLight::Triangle { corners: corners.map(Vec3::from), radiance: RADIANCE }
+    let corners = corners.map(Vec3::from);
+    AreaLight::Triangle { corners, radiance: RADIANCE, two_sided: false }
 }
 
 fn direct(scene: &Scene, visibility: Visibility, samples: u32) -> Result<Reference, Error> {

@@ -212,6 +212,7 @@ impl Shape {
             Self::Triangles => AreaLight::Triangle {
                 corners: [corner(0.0, 1.0), corner(-half_width, -0.5), corner(half_width, -0.5)],
                 radiance: Vec3::ONE,
+                two_sided: false,
             },
         }
     }

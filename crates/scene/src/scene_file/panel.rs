@@ -50,7 +50,11 @@ impl Panel {
                 [top_left, corner(-1.0, -1.0), bottom_right],
                 [bottom_right, corner(1.0, 1.0), top_left],
             ];
-            halves.map(|corners| AreaLight::Triangle { corners, radiance: Vec3::ONE })
+            halves.map(|corners| AreaLight::Triangle {
+                corners,
+                radiance: Vec3::ONE,
+                two_sided: false,
+            })
         })
     }
 
