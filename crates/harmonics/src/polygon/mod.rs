@@ -20,7 +20,8 @@ mod edge;
 
 use crate::{Real, count, index};
 pub use directions::MAX_BANDS;
-use edge::{Edge, cross, difference, dot};
+use edge::Edge;
+pub(crate) use edge::{cross, difference, dot};
 
 /// Zonal integrals S_l of a polygon for all directions, or sums of them over polygons.
 #[derive(Clone, Debug)]
