@@ -3,6 +3,10 @@
 mod common;
 mod forms;
 mod gather;
+mod hard_cases;
+mod scenes;
+mod shaders;
+mod truth;
 
 #[path = "../../../tests/examples/polygon_approximations/study.rs"]
 mod study;
