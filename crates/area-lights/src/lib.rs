@@ -8,6 +8,7 @@ mod area_lights;
 mod frame;
 mod gather;
 mod gather_shader;
+mod narrow;
 mod run;
 
 /// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same
@@ -18,4 +19,5 @@ pub use area_lights::{AreaLights, BANDS, Estimator, SceneTables};
 pub use frame::AreaLightFrame;
 pub use gather::{AreaGather, LightBatches};
 pub use gather_shader::{EstimatorShader, GatherShader};
+pub use narrow::Narrow;
 pub use run::AreaLightRun;

@@ -64,13 +64,14 @@ fn printed_solid_angles_lose_their_digits_in_single_precision() {
     let at = |distance: f64, turn: f64| {
         let (sine, cosine) = turn.sin_cos();
         let turned = |x: f64, y: f64| {
-            [0.3 * distance + x * cosine - y * sine, x * sine + y * cosine, distance + 0.2 * x]
+            let [x, y] = [x * cosine - y * sine, x * sine + y * cosine];
+            [0.5 * distance + x, 0.6 * distance + y, 0.62 * distance + 0.2 * x]
         };
         [turned(0.0, 0.0), turned(1.0, 0.1), turned(0.4, 0.9)]
     };
     for (distance, least, most) in [
         (1.0, [0.0, 0.0, 0.0], [1e-6, 1e-6, 1e-4]),
-        (10.0, [0.0, 1e-6, 1e-5], [1e-6, 1e-3, 1e-1]),
+        (10.0, [0.0, 1e-7, 1e-5], [1e-6, 1e-3, 1e-1]),
         (100.0, [0.0, 1e-5, 1e-2], [1e-6, 1e-1, 1e2]),
         (1000.0, [0.0, 1e-3, 1.0], [1e-6, 1e2, 1e4]),
     ] {

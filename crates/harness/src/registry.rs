@@ -4,6 +4,7 @@ use manylights_area_lights::AreaLights;
 use manylights_hvl::Hvl;
 use manylights_method::Method;
 use manylights_path_tracer::PathTracer;
+use manylights_polygonal_light::PolygonalLights;
 use manylights_spherical_light::SphericalLights;
 use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
@@ -23,6 +24,7 @@ pub const METHODS: Methods = &[
     &VirtualLights(Hvl),
     &VirtualLights(Vsgl),
     &AreaLights(SphericalLights),
+    &AreaLights(PolygonalLights),
 ];
 
 /// Where the method of this name stands in a list.

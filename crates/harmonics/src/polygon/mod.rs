@@ -21,8 +21,8 @@ mod mirror;
 
 use crate::{Real, count, index};
 pub use directions::MAX_BANDS;
-use edge::{Edge, difference};
-pub(crate) use edge::{cross, dot};
+use edge::Edge;
+pub(crate) use edge::{cross, difference, dot};
 pub use mirror::{MirrorPlane, transpose};
 pub(crate) use mirror::{boundary, carry};
 

@@ -4,7 +4,7 @@ use crate::Real;
 use crate::polygon::{cross, dot};
 
 /// By van Oosterom and Strackee with unit vectors to the corners (thesis 4.13), signed. In f32 the numerator
-/// cancels for far triangles: nothing is left of it at a thousand sizes.
+/// cancels for far triangles: 6e-4 of it is lost at a hundred sizes, 7 % at a thousand.
 pub fn oosterom_of_units<R: Real>(corners: [[R; 3]; 3]) -> R {
     let [a, b, c] = corners.map(unit);
     let cosine = R::one() + dot(a, b) + dot(b, c) + dot(c, a);
@@ -12,8 +12,8 @@ pub fn oosterom_of_units<R: Real>(corners: [[R; 3]; 3]) -> R {
 }
 
 /// The sum of the angles between the sides less π (Arvo 1995; thesis 4.12, with the lengths of the cross
-/// products, by which it must divide), without a sign. In f32 three arc cosines of some digits each make the
-/// difference, so that little is left at ten sizes.
+/// products, by which it must divide), without a sign. In f32 the difference of three
+/// arc cosines loses 3e-4 at ten sizes, 3 % at a hundred and all at a thousand.
 pub fn arvo<R: Real>(corners: [[R; 3]; 3]) -> R {
     let [a, b, c] = corners.map(unit);
     let [ab, bc, ca] = [cross(a, b), cross(b, c), cross(c, a)].map(unit);

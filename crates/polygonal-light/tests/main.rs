@@ -1,0 +1,4 @@
+//! All tests of the crate in one executable: each of its own links everything anew.
+
+mod common;
+mod gather;
