@@ -19,6 +19,11 @@ use super::lines::{Factor, Lines, sum};
 use crate::polygon::{MirrorPlane, boundary, carry};
 use crate::{even_count, even_index};
 
+/// Lengths of the arrays of weights for so many bands: of a zonal lobe and of an even one.
+pub fn weight_counts(bands: usize) -> (usize, usize) {
+    ((bands - 1).max(1), (bands * (bands - 1)).max(1))
+}
+
 /// `polygon_weights(lobe: array<f32, H>) -> array<f32, n (n − 1)>` of a lobe's coefficients of m ≥ 0, for
 /// [`edge`]; the solid angle's weight is that of coefficient 0 alone, Y_00. One 0 for one band.
 pub fn weights(bands: usize) -> Generated {
@@ -55,7 +60,7 @@ pub fn weights(bands: usize) -> Generated {
     give(lines, names.collect()).function(&format!(
         "polygon_weights(lobe: array<f32, {}>) -> array<f32, {}>",
         even_count(bands),
-        (bands * (bands - 1)).max(1)
+        weight_counts(bands).1
     ))
 }
 
@@ -70,7 +75,7 @@ pub fn zonal_weights(bands: usize) -> Generated {
     }
     give(lines, (1..bands).map(|l| format!("v{l}")).collect()).function(&format!(
         "polygon_zonal_weights(lobe: array<f32, {bands}>) -> array<f32, {}>",
-        (bands - 1).max(1)
+        weight_counts(bands).0
     ))
 }
 
@@ -85,7 +90,7 @@ pub fn edge(bands: usize, lobes: usize) -> Generated {
     assert!((1..=3).contains(&lobes), "{lobes} lobes");
     let names = &["a", "b", "c"][..lobes];
     let directions = MirrorPlane::<f64>::new(bands).directions().to_vec();
-    let (last, most) = (bands.saturating_sub(1).max(1), (bands * (bands - 1)).max(1));
+    let (last, most) = weight_counts(bands);
     let mut lines = Lines::default();
     lines.bind("sk", "half.x * half.y");
     lines.bind("ss", "half.x * half.x");
