@@ -8,6 +8,7 @@ mod evaluation;
 mod hemisphere;
 mod hemispherical;
 mod light;
+mod mirror;
 mod polygon;
 mod product;
 mod projection;

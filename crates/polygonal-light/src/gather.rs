@@ -3,13 +3,14 @@
 use glam::Vec3;
 use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader};
 use manylights_gpu::{Buffer, Error, Gpu, PointBindings, SurfaceRecord, Table};
-use manylights_harmonics::wgsl::{self, Function};
+use manylights_harmonics::wgsl::{self, Function, polygon};
 use manylights_harmonics::zonal::TriangleForm;
 use manylights_reflectance::{
     Damping, Form, LOBES, MODULES, Materials, ReceiverKinds, SHAPES, Tables, diffuse, lobe_wgsl,
 };
 use manylights_scene::AreaLight;
 
+use crate::exact::ExactRecord;
 use crate::light_record::{CenterRecord, CornerRecord};
 use crate::{Approximation, Settings};
 
@@ -18,6 +19,7 @@ const CAPACITY: usize = 512;
 
 /// What the kernel of an approximation reads of the lights.
 pub(crate) enum Records {
+    Exact(Vec<ExactRecord>),
     Centers(Vec<CenterRecord>),
     Corners(Vec<CornerRecord>),
 }
@@ -25,11 +27,14 @@ pub(crate) enum Records {
 impl Records {
     /// Lights without area are left out.
     pub(crate) fn new(lights: &[AreaLight], approximation: Approximation) -> Self {
-        let Approximation::Sphere(form) = approximation;
-        if needs_corners(form) {
-            Self::Corners(lights.iter().filter_map(CornerRecord::new).collect())
-        } else {
-            Self::Centers(lights.iter().filter_map(CenterRecord::new).collect())
+        match approximation {
+            Approximation::Exact(edges) => Self::Exact(ExactRecord::all(lights, edges)),
+            Approximation::Sphere(form) if needs_corners(form) => {
+                Self::Corners(lights.iter().filter_map(CornerRecord::new).collect())
+            }
+            Approximation::Sphere(_) => {
+                Self::Centers(lights.iter().filter_map(CenterRecord::new).collect())
+            }
         }
     }
 }
@@ -45,7 +50,10 @@ fn needs_corners(form: TriangleForm) -> bool {
 /// Where the shader does not link.
 pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<GatherShader, Error> {
     let Settings { bands, approximation, .. } = *settings;
-    let Approximation::Sphere(form) = approximation;
+    let (estimator, form) = match approximation {
+        Approximation::Exact(_) => (include_str!("shaders/exact.wesl"), None),
+        Approximation::Sphere(form) => (include_str!("shaders/sphere.wesl"), Some(form)),
+    };
     let ones = vec!["1.0"; bands].join(", ");
     let made = [
         ("sh", wgsl::module(bands, &[Function::CapScalesOf, Function::EvaluateEven])),
@@ -55,6 +63,7 @@ pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<Gather
             "points",
             format!("fn point_scales() -> array<f32, {bands}> {{ return array({ones}); }}\n"),
         ),
+        ("polygon", polygon_module(kinds, bands)),
     ];
     let made = made.each_ref().map(|(name, text)| (*name, &**text));
     let own = [
@@ -62,24 +71,41 @@ pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<Gather
         ("solid_angle", include_str!("shaders/solid_angle.wesl")),
     ];
     let features = [
-        ("main", form == TriangleForm::Main),
-        ("solid_angle", form == TriangleForm::SolidAngle),
-        ("compromise", form == TriangleForm::Compromise),
-        ("compromise_root", form == TriangleForm::CompromiseRoot),
-        ("scaled", form == TriangleForm::Scaled),
-        ("point", form == TriangleForm::Point),
-        ("corners", needs_corners(form)),
+        ("main", form == Some(TriangleForm::Main)),
+        ("solid_angle", form == Some(TriangleForm::SolidAngle)),
+        ("compromise", form == Some(TriangleForm::Compromise)),
+        ("compromise_root", form == Some(TriangleForm::CompromiseRoot)),
+        ("scaled", form == Some(TriangleForm::Scaled)),
+        ("point", form == Some(TriangleForm::Point)),
+        ("corners", form.is_some_and(needs_corners)),
         // Kernels read the tables of harmonics alone.
         ("measured", false),
     ];
     EstimatorShader {
-        estimator: include_str!("shaders/sphere.wesl"),
+        estimator,
         modules: &[&made[..], &own, &MODULES].concat(),
         features: &[&features[..], &kinds.features(Form::Full)].concat(),
         capacity: CAPACITY,
         bindings: PointBindings { settings: &[], tables: table_names(kinds) },
     }
     .link()
+}
+
+/// What exact edges meet the lobes with.
+fn polygon_module(kinds: ReceiverKinds, bands: usize) -> String {
+    if !kinds.specular {
+        let lobe: Vec<_> = diffuse::lobes(bands, Damping::None).iter().map(|[k, _]| *k).collect();
+        let edge = polygon::zonal_edge(&lobe).wgsl;
+        return format!("const LAMBERT = {:?};\n\n{edge}", lobe[0] as f32);
+    }
+    let functions = [
+        polygon::weights(bands),
+        polygon::zonal_weights(bands),
+        polygon::edge(bands, kinds.channels()),
+    ];
+    let (alone, together) = polygon::weight_counts(bands);
+    let texts = functions.map(|function| function.wgsl).join("\n");
+    format!("const ALONE = {alone}u;\nconst TOGETHER = {together}u;\n\n{texts}")
 }
 
 /// Those of [`tables`].
@@ -124,6 +150,7 @@ pub fn gather(
     let on_gpu = gpu.storage("surfaces", surfaces)?;
     let gather = AreaGather::new(gpu, (&on_gpu, surfaces.len() as u32), camera, &shader, tables)?;
     let batches = match Records::new(lights, settings.approximation) {
+        Records::Exact(records) => gather.batches(&records)?,
         Records::Centers(records) => gather.batches(&records)?,
         Records::Corners(records) => gather.batches(&records)?,
     };

@@ -46,6 +46,7 @@
 //! - `scaled` and `point` are not in the thesis.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
+mod exact;
 mod gather;
 mod light_record;
 pub mod oracle;
@@ -58,6 +59,7 @@ use manylights_method::{Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::AreaLight;
 
+pub use exact::Edges;
 pub use gather::{gather, linked_shader};
 pub use manylights_area_lights::Narrow;
 pub use manylights_harmonics::zonal::TriangleForm;
@@ -95,6 +97,9 @@ impl Estimator for PolygonalLights {
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
         let (products, count) = (even_count(settings.bands) * kinds.channels(), lights.len());
         Ok(match Records::new(&lights, settings.approximation) {
+            Records::Exact(records) => {
+                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), products))
+            }
             Records::Centers(records) => {
                 Box::new(AreaLightRun::new(on_gpu, gather, (records, count), products))
             }

@@ -2,6 +2,8 @@ use manylights_area_lights::{BANDS, Narrow};
 use manylights_harmonics::zonal::TriangleForm;
 use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
 
+use crate::Edges;
+
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     ParameterInfo {
         name: BANDS,
@@ -16,8 +18,12 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         introduced: None,
         help: "of a triangle's coefficients",
         kind: ParameterKind::Choice {
-            default: "main",
+            default: "exact",
             words: &[
+                ChoiceWord {
+                    word: "exact",
+                    help: "none: by integrals over its edges (Wang & Ramamoorthi 2018)",
+                },
                 ChoiceWord {
                     word: "sphere",
                     help: "a sphere at its centroid, of the disk of its area (thesis 4.7, 4.8)",
@@ -46,10 +52,29 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
             ],
         },
     },
+    ParameterInfo {
+        name: "edges",
+        formerly: None,
+        introduced: None,
+        help: "that are integrated, where `approximation` is exact",
+        kind: ParameterKind::Choice {
+            default: "shared",
+            words: &[
+                ChoiceWord { word: "own", help: "those of every triangle" },
+                ChoiceWord {
+                    word: "shared",
+                    help: "those between triangles of one plane once, none between equal ones",
+                },
+            ],
+        },
+    },
     Narrow::PARAMETER,
 ];
 
-const APPROXIMATIONS: [(&str, Approximation); 7] = [
+const EDGES: [(&str, Edges); 2] = [("own", Edges::Own), ("shared", Edges::Shared)];
+
+/// All but `exact`.
+const SPHERES: [(&str, Approximation); 7] = [
     ("sphere", Approximation::Sphere(TriangleForm::Sphere)),
     ("main", Approximation::Sphere(TriangleForm::Main)),
     ("solid-angle", Approximation::Sphere(TriangleForm::SolidAngle)),
@@ -66,6 +91,8 @@ pub const MAX_BANDS: usize = 15;
 /// Where the coefficients of a triangle come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Approximation {
+    /// Its edges.
+    Exact(Edges),
     /// A sphere in its stead.
     Sphere(TriangleForm),
 }
@@ -90,9 +117,11 @@ impl Default for Settings {
 
 impl Settings {
     pub(crate) fn new(parameters: &Parameters) -> Self {
+        let exact = ("exact", Approximation::Exact(parameters.choice("edges", &EDGES)));
+        let approximations = [&[exact][..], &SPHERES].concat();
         Self {
             bands: parameters.count(BANDS) as usize,
-            approximation: parameters.choice("approximation", &APPROXIMATIONS),
+            approximation: parameters.choice("approximation", &approximations),
             narrow: Narrow::new(parameters),
         }
     }
@@ -109,12 +138,14 @@ mod tests {
         };
         let plain = Settings {
             bands: 9,
-            approximation: Approximation::Sphere(TriangleForm::Main),
+            approximation: Approximation::Exact(Edges::Shared),
             narrow: Narrow::Decline,
         };
         assert_eq!(Settings::default(), plain);
         assert_eq!(set("bands", "15").bands, 15);
-        for (word, approximation) in APPROXIMATIONS {
+        let own = Approximation::Exact(Edges::Own);
+        assert_eq!(set("edges", "own"), Settings { approximation: own, ..plain });
+        for (word, approximation) in SPHERES {
             assert_eq!(set("approximation", word), Settings { approximation, ..plain });
         }
         assert_eq!(set("narrow", "keep"), Settings { narrow: Narrow::Keep, ..plain });

@@ -1,6 +1,7 @@
 //! All tests of the crate in one executable: each of its own links everything anew.
 
 mod common;
+mod exact;
 mod forms;
 mod gather;
 mod hard_cases;

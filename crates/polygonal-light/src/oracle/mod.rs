@@ -1,5 +1,7 @@
 //! The same estimator in f64 on the CPU.
 
+mod polygon;
+
 use glam::DVec3;
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::zonal::{TriangleForm, TriangleSighting};
@@ -24,7 +26,9 @@ pub fn radiance(
     let view = (camera - position).normalize();
     let receiver =
         Receiver::new(surface.brdf(), [normal, view], settings.bands, Form::Full, Damping::None);
-    let Approximation::Sphere(form) = settings.approximation;
+    let Approximation::Sphere(form) = settings.approximation else {
+        return polygon::reflected(&receiver, position, lights, settings.bands);
+    };
     let reflected = |light: &AreaLight| {
         let Some((direction, scales)) = scales(light, [position, normal], form, settings.bands)
         else {

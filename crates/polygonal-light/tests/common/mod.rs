@@ -7,7 +7,9 @@ use manylights_area_lights::AreaLights;
 use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
 use manylights_method::{Error, Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
-use manylights_polygonal_light::{Approximation, Narrow, PolygonalLights, Settings, TriangleForm};
+use manylights_polygonal_light::{
+    Approximation, Edges, Narrow, PolygonalLights, Settings, TriangleForm,
+};
 use manylights_scene::{AreaLight, Brdf, Lobe, Scene, Transport, Visibility};
 
 pub(crate) static GPU: LazyLock<Gpu> =
@@ -15,6 +17,11 @@ pub(crate) static GPU: LazyLock<Gpu> =
 
 pub(crate) fn settings(form: TriangleForm) -> Settings {
     let approximation = Approximation::Sphere(form);
+    Settings { bands: 9, approximation, narrow: Narrow::Decline }
+}
+
+pub(crate) fn exact(edges: Edges) -> Settings {
+    let approximation = Approximation::Exact(edges);
     Settings { bands: 9, approximation, narrow: Narrow::Decline }
 }
 
