@@ -82,7 +82,12 @@ fn draw(text: &mut String) -> Result<(), Box<dyn std::error::Error + '_>> {
             .label(name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
     }
-    chart.configure_series_labels().label_font((font, size)).border_style(BLACK).draw()?;
+    chart
+        .configure_series_labels()
+        .background_style(WHITE)
+        .label_font((font, size))
+        .border_style(BLACK)
+        .draw()?;
     root.present()?;
     Ok(())
 }
