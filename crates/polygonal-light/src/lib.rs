@@ -12,9 +12,9 @@
 //! in the direction ω, at γ from the triangle's normal; with c_l(s) of the cap of sine s and Ω the triangle's
 //! own solid angle:
 //!
-//! | `approximation` | c_l | left of an equilateral triangle at 2 and 10 sizes √(2 area), 5 bands |
+//! | `approximation` | c_l | error of an equilateral triangle's 5 bands at 2 and 10 sizes √(2 area) |
 //! |---|---|---|
-//! | `sphere` | c_l(r/d) | 2.2, 2.4: two-sided triangles are no spheres |
+//! | `sphere` | c_l(r/d) | 2.2, 2.4 |
 //! | `main` (4.9) | \|cos γ\| c_l(r/d) | 0.066, 0.0026 |
 //! | `solid-angle` (4.14) | of the cap of solid angle Ω | 0.055, 0.0021 |
 //! | `compromise` (4.17) | c_l(r/d \|cos γ\|) | 0.52, 0.52 |
@@ -23,8 +23,8 @@
 //! | `point` | Ω | 0.079, 0.0031 |
 //!
 //! All but `sphere` and `compromise` tend to the triangle with the square of the distance, or with the number
-//! of triangles that a polygon is cut into (`tests/forms.rs`). A one-sided triangle sends nothing to its back. They are formulas of
-//! [`zonal::triangle`](manylights_harmonics::zonal::TriangleSighting), which has their gradients as well.
+//! of triangles that a polygon is cut into (`tests/forms.rs`). A one-sided triangle sends nothing to its back.
+//! [`TriangleSighting`](manylights_harmonics::zonal::TriangleSighting) has all of them with their gradients.
 //!
 //! ## Hard cases
 //! - Within the sphere about the centroid (d ≤ r) its cap is the hemisphere, at the centroid itself that about the
@@ -33,7 +33,7 @@
 //!   there where the light is one-sided.
 //! - A triangle without area is no light.
 //! - The solid angle is that of van Oosterom and Strackee from differences of corners: with unit vectors
-//!   (4.13) f32 loses all digits of it at a thousand sizes. Distances up to 1e12 m.
+//!   (4.13) f32 loses all digits of it at a thousand sizes. Lengths may be 1e-10 to 1e11 m.
 //!
 //! ## Cost
 //! A light takes 48 bytes, where its solid angle counts 64.

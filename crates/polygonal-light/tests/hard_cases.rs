@@ -84,7 +84,7 @@ fn every_distance_and_orientation() {
     }
 }
 
-/// Thousandths of a millimetre to thousands of kilometres.
+/// From below an atom's to beyond a planet's.
 #[test]
 fn the_unit_of_length_does_not_matter() {
     let places: Vec<_> = (0..50).map(|i| 1.3 * spiral(i, 50, -1.0).as_vec3()).collect();
@@ -98,7 +98,7 @@ fn the_unit_of_length_does_not_matter() {
         let metre = at(1.0);
         let largest = metre.iter().map(|pixel| pixel.x).fold(0.0, f32::max);
         assert!(largest > 0.0);
-        for size in [1e-6, 1e-3, 1e6] {
+        for size in [1e-10, 1e-3, 1e6, 1e11] {
             for (pixel, metre) in at(size).into_iter().zip(&metre) {
                 let error = (pixel.x - metre.x).abs() / largest;
                 assert!(error < 2e-6, "{form:?} {size}: {error:e}");
@@ -215,6 +215,38 @@ fn both_sides_shine_alike() {
         for (pixel, (front, back)) in of(light).into_iter().zip(sides) {
             assert!((pixel - front - back).abs().max_element() < 1e-6, "{form:?}");
             assert!(front == Vec3::ZERO || back == Vec3::ZERO, "{form:?}: {front} {back}");
+        }
+    }
+}
+
+/// Along paths of steps of half a hundredth of a size: into the sphere about the centroid, across the plane of a
+/// two-sided triangle beside it, and where the triangle sinks below the receiver's horizon.
+#[test]
+fn nothing_jumps() {
+    let light = triangle(1.0, true);
+    let AreaLight::Triangle { corners: [a, b, c], .. } = light else { unreachable!() };
+    let (up, across) = ((b - a).cross(c - a).normalize(), (b - a).normalize());
+    let middle = center(&light);
+    let toward = (up + 0.4 * across).normalize();
+    let path = |of: &dyn Fn(f32) -> Vec3| (0..200).map(|i| of(0.005 * i as f32)).collect();
+    let paths: [(&str, Vec<Vec3>, Vec3, f32); 3] = [
+        // Outside the sphere its cap shrinks by 0.17 rad in the first step.
+        ("into the sphere", path(&|t| middle + (1.01 - t) * toward), Vec3::Y, 0.1),
+        ("across the plane", path(&|t| middle + 1.5 * across + (t - 0.5) * up), across, 0.04),
+        ("below the horizon", path(&|t| middle + 1.3 * up + (t - 0.5) * across), across, 0.03),
+    ];
+    for (name, places, normal, most) in &paths {
+        for form in TriangleForm::ALL {
+            for brdf in [Brdf::lambert(Vec3::ONE), glossy(0.5)] {
+                let receivers = (&places[..], -*normal);
+                let (_, pixels) = radiance(receivers, brdf, &[light], &settings(form));
+                let largest = pixels.iter().map(|pixel| pixel.x).fold(0.0, f32::max);
+                assert!(largest > 0.0, "{name}: nothing arrives");
+                let steps = pixels.windows(2).map(|pair| (pair[1].x - pair[0].x).abs() / largest);
+                let step = steps.fold(0.0, f32::max);
+                println!("{name} {form:?}: {step:.4}");
+                assert!(step < *most, "{name} {form:?}: {step}");
+            }
         }
     }
 }
