@@ -57,9 +57,9 @@ fn gradients_are_those_of_differences() {
                 let found = gradients(form, bands, &seen_from(point, true));
                 let largest = found.as_flattened().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
                 for axis in 0..3 {
-                    for (i, truth) in differences(form, bands, point, axis).into_iter().enumerate()
-                    {
-                        let error = (found[i][axis] - truth).abs() / largest;
+                    let truth = differences(form, bands, point, axis);
+                    for (i, (found, truth)) in found.iter().zip(truth).enumerate() {
+                        let error = (found[axis] - truth).abs() / largest;
                         assert!(error < 1e-9, "{form:?} {bands} {point:?} {i} {axis}: {error:e}");
                     }
                 }
