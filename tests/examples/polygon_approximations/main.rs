@@ -1,5 +1,5 @@
 //! Spheres in the stead of triangles beside the triangles (thesis 4.2, figures 4.8 to 4.16 and table 4.4),
-//! written to `results/polygonal-light-approximations/approximations.md`. Run with
+//! written to `results/triangles-by-spheres/approximations.md`. Run with
 //! `cargo run --release -p manylights-tests --example polygon_approximations`.
 
 mod cost;
@@ -54,7 +54,7 @@ fn main() {
         pictures::table(),
         cost::table(),
     );
-    let folder = std::path::Path::new("results/polygonal-light-approximations");
+    let folder = std::path::Path::new("results/triangles-by-spheres");
     std::fs::create_dir_all(folder).expect("the results folder can be made");
     std::fs::write(folder.join("solid-angles.svg"), line::figure()).expect("can write");
     std::fs::write(folder.join("approximations.md"), &text).expect("can write");
