@@ -3,8 +3,9 @@
 mod common;
 mod exact;
 mod forms;
+mod forms_hard_cases;
 mod gather;
-mod hard_cases;
+
 mod scenes;
 mod shaders;
 mod truth;
