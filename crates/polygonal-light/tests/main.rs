@@ -5,7 +5,6 @@ mod exact;
 mod forms;
 mod forms_hard_cases;
 mod gather;
-
 mod scenes;
 mod shaders;
 mod truth;
