@@ -8,7 +8,7 @@ use manylights_method::{Amounts, Baking, CounterInfo, Error, Method, Parameters,
 use manylights_metrics::RadianceImage;
 use manylights_scene::builtin::BUILTINS;
 use manylights_scene::{Transport, Visibility};
-use manylights_tests::{Stage, under_spheres};
+use manylights_tests::{Stage, under_spheres, under_triangles};
 
 const RESOLUTION: [u32; 2] = [12, 9];
 
@@ -99,7 +99,7 @@ fn baked(
 fn methods_decline_or_give_a_finite_picture_that_the_seed_decides_where_chance_does() {
     let mut rendered = BTreeSet::new();
     let builtins = BUILTINS.iter().map(|builtin| (builtin.make)());
-    for scene in builtins.chain([under_spheres(5)]) {
+    for scene in builtins.chain([under_spheres(5), under_triangles(5)]) {
         let stage = Stage::new(scene, RESOLUTION);
         for method in METHODS {
             for transport in transports() {

@@ -9,6 +9,7 @@ mod frame;
 mod gather;
 mod gather_shader;
 mod irradiance;
+mod narrow;
 mod run;
 
 /// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same
@@ -20,4 +21,5 @@ pub use frame::AreaLightFrame;
 pub use gather::{AreaGather, LightBatches};
 pub use gather_shader::{EstimatorShader, GatherShader};
 pub use irradiance::IRRADIANCE;
+pub use narrow::Narrow;
 pub use run::AreaLightRun;

@@ -5,6 +5,7 @@ use manylights_hvl::Hvl;
 use manylights_ltc::Ltc;
 use manylights_method::Method;
 use manylights_path_tracer::PathTracer;
+use manylights_polygonal_light::PolygonalLights;
 use manylights_spherical_light::SphericalLights;
 use manylights_virtual_lights::VirtualLights;
 use manylights_vpl::Vpl;
@@ -24,6 +25,7 @@ pub const METHODS: Methods = &[
     &VirtualLights(Hvl),
     &VirtualLights(Vsgl),
     &AreaLights(SphericalLights),
+    &AreaLights(PolygonalLights),
     &AreaLights(Ltc),
 ];
 

@@ -369,8 +369,8 @@ fn other_transports_are_declined() {
 /// below it.
 #[test]
 fn no_triangle_lights_itself() {
-    let mut scene = Scene::default();
-    scene.materials = vec![Material { emission: RADIANCE, ..lambert() }];
+    let materials = vec![Material { emission: RADIANCE, ..lambert() }];
+    let mut scene = Scene { materials, ..Scene::default() };
     let tilted = Vec3::new(0.6, 0.7, 0.2).normalize();
     let corners = [[-1.1, 0.13, -0.7], [0.2, -0.17, 1.3], [0.9, 0.07, -0.8]];
     scene.vertices.extend(corners.map(|corner| Vertex {

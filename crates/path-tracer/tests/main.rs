@@ -6,8 +6,8 @@ mod cache;
 mod determinism;
 mod emitters;
 mod integrating_sphere;
+mod panels;
 mod transports;
-mod two_sided;
 
 #[path = "../../scene/tests/common/tensor.rs"]
 mod tensor;

@@ -64,14 +64,12 @@ use manylights_gpu::Buffer;
 use manylights_harmonics::even_count;
 use manylights_method::{Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::{Materials, Tables};
-use manylights_scene::{AreaLight, Scene};
+use manylights_scene::AreaLight;
 
 pub use gather::{SphereLight, gather, linked_shader};
+pub use manylights_area_lights::Narrow;
 pub use manylights_reflectance::{CosineProduct, Diffuse};
-pub use params::{Coefficients, Extent, MAX_BANDS, Narrow, Product, Settings};
-
-/// Lobes of a smaller roughness are narrow.
-const NARROW: f32 = 0.3;
+pub use params::{Coefficients, Extent, MAX_BANDS, Product, Settings};
 
 /// The method is `AreaLights(SphericalLights)`.
 #[derive(Clone, Copy, Debug)]
@@ -118,9 +116,7 @@ impl SceneTables for LobeTables {
     fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
         let settings = Settings::new(parameters);
         refuse_long_products(&settings)?;
-        if settings.narrow == Narrow::Decline {
-            refuse_narrow_lobes(frame.scene)?;
-        }
+        settings.narrow.check(frame.scene)?;
         let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
         let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
         let of_caps = u64::from(settings.coefficients == Coefficients::Tabulated);
@@ -143,18 +139,5 @@ fn refuse_long_products(settings: &Settings) -> Result<(), Error> {
     Err(Error::Declined(format!(
         "multiplies at most {most} bands by the cosine's expansion, whose integrals grow as bands⁵: --set \
          bands={most}, or product=4.6"
-    )))
-}
-
-fn refuse_narrow_lobes(scene: &Scene) -> Result<(), Error> {
-    let narrow = scene.materials.iter().find(|material| {
-        let brdf = material.brdf(material.base_color);
-        // α is the square; a number that is as it was written must not fail by its rounding.
-        brdf.has_specular() && brdf.alpha < NARROW * NARROW * (1.0 - 1e-6)
-    });
-    let Some(material) = narrow else { return Ok(()) };
-    Err(Error::Declined(format!(
-        "sees no lamp in lobes of roughness below {NARROW}, as material `{}` has one: --set narrow=keep",
-        material.name
     )))
 }

@@ -1,5 +1,7 @@
-//! Lights that shine from both sides: a panel between two floors, as a light that is no surface and as an
-//! emissive mesh, against closed forms and against two panels back to back.
+//! Panels between two floors, as lights that are no surfaces and as emissive meshes, against closed forms;
+//! two-sided ones also against two panels back to back.
+
+mod field_cases;
 
 use std::f64::consts::PI;
 
@@ -14,6 +16,8 @@ use manylights_scene::{
 const RESOLUTION: [u32; 2] = [12, 12];
 const RADIANCE: f32 = 3.0;
 const ALBEDO: f32 = 0.6;
+/// Triangles of both floors, the first of their scenes.
+const FLOORS: u32 = 4;
 /// Of the panel, between the floors at 0 and 2.
 const HEIGHT: f32 = 0.7;
 const DIRECT: [Transport; 2] = [
@@ -106,44 +110,69 @@ fn mean(reference: &Reference) -> (f64, f64) {
     (sum(&reference.image.pixels) / pixels, sum(&reference.variance.pixels) / pixels.powi(2))
 }
 
+/// What each pixel sees of Lambertian floors under panels of unit radiance in closed form; `None` where it sees
+/// a panel or nothing.
+fn closed_form(
+    scene: &Scene,
+    camera: usize,
+    panels: &[[Vec3; 4]],
+    two_sided: bool,
+) -> Vec<Option<f64>> {
+    let (bvh, camera) = (Bvh::build(scene), &scene.cameras[camera]);
+    let [width, height] = RESOLUTION;
+    let pixel = |index: u32| {
+        let direction = camera.direction(index % width, index / width, RESOLUTION);
+        let hit = bvh.closest(&Ray::new(camera.position, direction))?;
+        let point = scene.surface(hit.triangle, hit.u, hit.v, direction);
+        let irradiance = |panel: &[Vec3; 4]| {
+            let relative =
+                panel.map(|corner| (corner.as_dvec3() - point.position.as_dvec3()).to_array());
+            let mut turned = relative;
+            turned.reverse();
+            let normal = point.geometric_normal.as_dvec3().to_array();
+            let [front, back] =
+                [relative, turned].map(|corners| polygon_irradiance(normal, &corners));
+            assert!(front.min(back) < 1e-12, "a point sees one side");
+            if two_sided { front + back } else { front }
+        };
+        let sum = panels.iter().map(irradiance).sum::<f64>();
+        (hit.triangle < FLOORS).then_some(f64::from(ALBEDO) * sum / PI)
+    };
+    (0..width * height).map(pixel).collect()
+}
+
+/// Each pixel within six of its own standard deviations or 0.1 %, none noisier than `noise` of its value (or of
+/// the brightest's twentieth), and more than 30 of them lit.
+fn assert_agrees(what: &str, reference: &Reference, expected: &[Option<f64>], noise: f64) {
+    let brightest = expected.iter().flatten().fold(0.0, |most: f64, &value| most.max(value));
+    let mut lit = 0;
+    for (index, expected) in expected.iter().enumerate() {
+        let value = f64::from(reference.image.pixels[index][0]);
+        // The panel itself reflects nothing.
+        let expected = f64::from(RADIANCE) * expected.unwrap_or(0.0);
+        let deviation = f64::from(reference.variance.pixels[index][0]).sqrt();
+        lit += u32::from(expected > 0.0);
+        let limit = 6.0 * deviation + 1e-3 * expected;
+        assert!(
+            (value - expected).abs() <= limit,
+            "{what}, pixel {index}: {value}, expected {expected} ± {deviation}"
+        );
+        let quiet = noise * expected.max(0.05 * f64::from(RADIANCE) * brightest);
+        assert!(deviation <= quiet, "{what}, pixel {index}: {expected} ± {deviation}");
+    }
+    assert!(lit > 30, "{what}: {lit}");
+}
+
 #[test]
 fn both_floors_have_the_irradiance_of_closed_forms() {
     for panel in [Panel::Light, Panel::Mesh] {
         let scene = two_sided(Material::lambert("floor", Vec3::splat(ALBEDO)), panel);
-        let bvh = Bvh::build(&scene);
-        for (number, camera) in scene.cameras.iter().enumerate() {
+        for camera in 0..2 {
+            let expected = closed_form(&scene, camera, &[square(0.4, HEIGHT)], true);
             for transport in DIRECT {
-                let reference = picture(&scene, number, transport, 1024);
-                let mut lit = 0;
-                for (index, pixel) in (0..).zip(&reference.image.pixels) {
-                    let [width, _] = RESOLUTION;
-                    let direction = camera.direction(index % width, index / width, RESOLUTION);
-                    let hit = bvh.closest(&Ray::new(camera.position, direction));
-                    // The panel itself reflects nothing.
-                    let Some(hit) = hit.filter(|hit| hit.triangle < 4) else {
-                        assert_eq!(*pixel, [0.0; 3]);
-                        continue;
-                    };
-                    let point = scene.surface(hit.triangle, hit.u, hit.v, direction);
-                    let relative = square(0.4, HEIGHT)
-                        .map(|corner| (corner.as_dvec3() - point.position.as_dvec3()).to_array());
-                    let mut turned = relative;
-                    turned.reverse();
-                    let normal = point.normal.as_dvec3().to_array();
-                    let [front, back] =
-                        [relative, turned].map(|corners| polygon_irradiance(normal, &corners));
-                    assert_eq!(front.min(back), 0.0, "a point sees one side");
-                    let expected = f64::from(ALBEDO * RADIANCE) * (front + back) / PI;
-                    lit += u32::from(expected > 0.0);
-                    let deviation = f64::from(reference.variance.pixels[index as usize][0]).sqrt();
-                    let error = (f64::from(pixel[0]) - expected).abs();
-                    assert!(
-                        error <= 6.0 * deviation + 1e-3 * expected,
-                        "{panel:?}, camera {number}, {transport}, pixel {index}: {pixel:?}, \
-                         expected {expected} ± {deviation}"
-                    );
-                }
-                assert!(lit > 30, "{panel:?}, camera {number}: {lit}");
+                let reference = picture(&scene, camera, transport, 1024);
+                let what = format!("{panel:?}, camera {camera}, {transport}");
+                assert_agrees(&what, &reference, &expected, 0.05);
             }
         }
     }
@@ -166,13 +195,13 @@ fn a_panel_of_two_sides_is_two_panels_of_one() {
             let scenes = [two_sided, back_to_back].map(|make| make(material.clone(), panel));
             for transport in transports {
                 for camera in 0..2 {
-                    let samples = if transport == indirect { 1 << 14 } else { 2048 };
+                    let samples = if transport == indirect { 4096 } else { 2048 };
                     let pictures = [0, 1].map(|i| picture(&scenes[i], camera, transport, samples));
                     let [(own, a), (other, b)] = [mean(&pictures[0]), mean(&pictures[1])];
                     let deviation = (a + b).sqrt();
                     let what = format!("{panel:?}, {transport}, camera {camera}");
                     println!("{what}: {own} {other} ± {deviation}");
-                    assert!(deviation < 0.03 * own, "{what}: {deviation} of {own}");
+                    assert!(deviation < 0.05 * own, "{what}: {deviation} of {own}");
                     // The gap of the meshes moves them by 0.1 % of their distance.
                     let limit = 4.0 * deviation + 2e-3 * own;
                     assert!((own - other).abs() < limit, "{what}: {own} {other} ± {deviation}");

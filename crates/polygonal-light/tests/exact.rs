@@ -1,0 +1,71 @@
+//! Exact triangles on the adapter against the oracle, near and far.
+
+use crate::common::{GPU, exact, glossy, metal, oblique, spiral, surface};
+use glam::Vec3;
+use manylights_gpu::SurfaceRecord;
+use manylights_polygonal_light::{Edges, Settings, gather, oracle};
+use manylights_scene::{AreaLight, Brdf};
+
+/// So far that the direction to it is one for all.
+const CAMERA: Vec3 = Vec3::new(3e7, 9e7, -2e7);
+
+/// Around the origin at one distance, turned at random, seen from their front.
+fn receivers(brdf: Brdf, distance: f32, count: u32) -> Vec<SurfaceRecord> {
+    (0..count)
+        .map(|i| {
+            let place = distance * spiral(i, count, -1.0).as_vec3();
+            let normal = spiral((i * 197) % count, count, -1.0).as_vec3();
+            surface(oblique(place), oblique(normal), brdf)
+        })
+        .filter(|surface| surface.normal.dot(CAMERA) > 0.0)
+        .collect()
+}
+
+/// Largest difference to the oracle over all receivers, relative to the largest true radiance.
+fn worst(surfaces: &[SurfaceRecord], lights: &[AreaLight], settings: &Settings) -> f64 {
+    let pixels = gather(&GPU, surfaces, CAMERA, lights, settings).expect("a gather");
+    let (mut peak, mut worst): (f64, f64) = (0.0, 0.0);
+    for (surface, pixel) in surfaces.iter().zip(pixels) {
+        let truth = oracle::radiance(surface, CAMERA.as_dvec3(), lights, settings);
+        let pixel = Vec3::from(pixel);
+        assert!(pixel.is_finite(), "{surface:?}: {pixel}");
+        peak = peak.max(truth.abs().max_element());
+        worst = worst.max((pixel.as_dvec3() - truth).abs().max_element());
+    }
+    assert!(peak > 0.0, "nothing arrives");
+    worst / peak
+}
+
+/// Of diameter 1, about.
+fn triangle(two_sided: bool) -> AreaLight {
+    let corners = [[-0.4, 0.05, -0.3], [0.5, -0.02, -0.2], [0.02, 0.07, 0.5]];
+    let corners = corners.map(|corner| oblique(Vec3::from(corner)));
+    AreaLight::Triangle { corners, radiance: Vec3::new(1.0, 0.7, 0.3), two_sided }
+}
+
+#[test]
+fn every_lobe_and_any_bands_at_one_size() {
+    for brdf in [Brdf::lambert(Vec3::splat(0.7)), glossy(0.4), metal(0.3)] {
+        for bands in [1, 2, 3, 5, 9, 15] {
+            let settings = Settings { bands, ..exact(Edges::Own) };
+            for two_sided in [false, true] {
+                let worst = worst(&receivers(brdf, 1.0, 400), &[triangle(two_sided)], &settings);
+                println!("{bands} bands, {brdf:?}: {worst:.1e}");
+                assert!(worst < 1e-5, "{brdf:?}, {settings:?}: {worst:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn any_distance() {
+    for brdf in [Brdf::lambert(Vec3::splat(0.7)), glossy(0.4), metal(0.3)] {
+        for distance in [0.3, 1.0, 2.0, 3.0, 3.9, 4.4, 5.0, 6.0, 8.5, 10.0, 20.0, 100.0, 300.0, 1e3]
+        {
+            let surfaces = receivers(brdf, distance, 200);
+            let worst = worst(&surfaces, &[triangle(true)], &exact(Edges::Own));
+            println!("{distance}, {:?}: {worst:.1e}", brdf.alpha);
+            assert!(worst < 2e-4, "{brdf:?}, {distance}: {worst:e}");
+        }
+    }
+}
