@@ -11,6 +11,7 @@ mod gather_shader;
 mod irradiance;
 mod narrow;
 mod run;
+mod transformed_cap;
 
 /// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same
 /// estimator gives another picture.
@@ -23,3 +24,4 @@ pub use gather_shader::{EstimatorShader, GatherShader};
 pub use irradiance::IRRADIANCE;
 pub use narrow::Narrow;
 pub use run::AreaLightRun;
+pub use transformed_cap::transformed_cap;

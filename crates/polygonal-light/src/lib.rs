@@ -120,6 +120,12 @@ impl SceneTables for LobeTables {
     fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
         let settings = Settings::new(parameters);
         settings.narrow.check(frame.scene)?;
+        if settings.narrow == Narrow::Transformed && Materials::of_scene(frame.scene).kinds().narrow
+        {
+            return Err(Error::Declined(
+                "knows narrow lobes by their bands alone: --set narrow=keep".into(),
+            ));
+        }
         let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
         let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
         Ok(Self { on_gpu, count: receivers.count() })

@@ -29,7 +29,7 @@ pub use expansion::{Damping, Form};
 pub use lobe_quadrature::{Fixed, LobeQuadrature};
 pub use lobe_shape::LobeShape;
 pub use lobe_wgsl::LOBES;
-pub use materials::{Materials, ReceiverKinds, single};
+pub use materials::{Materials, NARROW, ReceiverKinds, is_narrow, single};
 pub use product::{CosineProduct, Diffuse};
 pub use receiver::Receiver;
 pub use tables::Tables;

@@ -43,6 +43,11 @@
 //! the roughness is the one of the GGX lobe that its own data stand next to
 //! ([`Brdf::alpha`](manylights_scene::Brdf)), an estimate: it decides as well.
 //!
+//! With `narrow = transformed` such a lobe meets each light as a linearly transformed cosine
+//! ([`transformed_cosine`](manylights_reflectance::transformed_cosine)): of that lamp it misses below 2 % at roughness
+//! 0.1 up to 60°. The Lambertian lobe under it stays on harmonics. It needs Schlick's Fresnel term and `product = full`;
+//! kernels of scenes without narrow lobes do not change.
+//!
 //! # Cost
 //! A pixel's expansion is fetched once a batch of lights, not once a light; a light takes 32 bytes.
 //!
@@ -116,6 +121,7 @@ impl SceneTables for LobeTables {
     fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
         let settings = Settings::new(parameters);
         refuse_long_products(&settings)?;
+        refuse_transformed_products(&settings)?;
         settings.narrow.check(frame.scene)?;
         let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
         let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
@@ -126,6 +132,14 @@ impl SceneTables for LobeTables {
     fn count(&self) -> u64 {
         self.count
     }
+}
+
+/// Light by light alone a lobe is met as it is.
+fn refuse_transformed_products(settings: &Settings) -> Result<(), Error> {
+    if settings.narrow != Narrow::Transformed || settings.product == Product::Full {
+        return Ok(());
+    }
+    Err(Error::Declined("transforms narrow lobes light by light: --set product=full".into()))
 }
 
 fn refuse_long_products(settings: &Settings) -> Result<(), Error> {

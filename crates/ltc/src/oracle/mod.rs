@@ -1,14 +1,14 @@
 //! The same estimator in f64 on the CPU.
 
-mod disk;
 mod triangle;
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use manylights_area_lights::transformed_cap;
 use manylights_gpu::SurfaceRecord;
 use manylights_paths::closed_form::sphere_irradiance;
-use manylights_reflectance::transformed_cosine::{Layered, Table, TransformedCosine, at};
+use manylights_reflectance::transformed_cosine::{Layered, TransformedCosine, of_surface};
 use manylights_scene::DBrdf;
 
 use crate::{Kind, LightRecord};
@@ -35,11 +35,7 @@ pub fn radiance(surface: &SurfaceRecord, camera: DVec3, lights: &[LightRecord]) 
     let grazing = brdf.transmission(0.0);
     let (cosine_share, layered_share) =
         if brdf.has_specular() { (grazing, brdf.transmission(1.0) - grazing) } else { (1.0, 0.0) };
-    let specular = brdf.has_specular().then(|| {
-        let lobe = at(&Table::shared().lobes(brdf.alpha), view_n);
-        let [a, b] = lobe.magnitudes;
-        (lobe.cosine, (brdf.f0 * a + DVec3::splat(f64::from(brdf.lobe.f90()) * b)) / PI)
-    });
+    let specular = brdf.has_specular().then(|| of_surface(&brdf, view_n));
     let reflected = |light: &LightRecord| {
         let irradiance = |cosine: &TransformedCosine| {
             let corner = light.corner.as_dvec3() - position;
@@ -52,7 +48,7 @@ pub fn radiance(surface: &SurfaceRecord, camera: DVec3, lights: &[LightRecord]) 
                 return if *cosine == TransformedCosine::COSINE {
                     sphere_irradiance(w.z, sine)
                 } else {
-                    disk::irradiance(cosine, w, sine)
+                    transformed_cap(cosine, w, sine)
                 };
             }
             let edges = [light.first, light.second].map(|edge| corner + edge.as_dvec3());

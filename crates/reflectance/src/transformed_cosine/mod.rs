@@ -25,6 +25,7 @@ mod table;
 mod wgsl;
 
 use glam::DVec3;
+use manylights_scene::DBrdf;
 
 pub use layered::Layered;
 pub use table::{FINGERPRINT, Table, VIEWS, at, roughness, view_cosine, view_place};
@@ -69,6 +70,15 @@ impl TransformedCosine {
         let length2 = turned.length_squared();
         turned.z.max(0.0) * self.determinant() / (std::f64::consts::PI * length2 * length2)
     }
+}
+
+/// The transform of a surface's specular lobe for a view at this cosine from the normal, and its magnitude over π:
+/// what kernels read, in f64.
+pub fn of_surface(brdf: &DBrdf, cosine: f64) -> (TransformedCosine, DVec3) {
+    let lobe = at(&Table::shared().lobes(brdf.alpha), cosine);
+    let [a, b] = lobe.magnitudes;
+    let magnitude = brdf.f0 * a + DVec3::splat(f64::from(brdf.lobe.f90()) * b);
+    (lobe.cosine, magnitude * std::f64::consts::FRAC_1_PI)
 }
 
 /// A transformed cosine and its magnitudes.

@@ -1,4 +1,4 @@
-//! Spheres by the disks of their silhouettes.
+//! Spheres by the disks of their silhouettes: `shaders/disk_irradiance.wesl` in f64.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -6,8 +6,9 @@ use glam::{DMat3, DVec3};
 use manylights_paths::closed_form::sphere_irradiance;
 use manylights_reflectance::transformed_cosine::TransformedCosine;
 
-/// Irradiance of what a transform makes of a cap about `w` above the horizon.
-pub(super) fn irradiance(cosine: &TransformedCosine, w: DVec3, sine: f64) -> f64 {
+/// Irradiance, sr, of what a transform makes of a cap of unit radiance above the horizon: about `w`, a unit vector in
+/// the frame of normal and view, with this sine of its half-angle.
+pub fn transformed_cap(cosine: &TransformedCosine, w: DVec3, sine: f64) -> f64 {
     if w.z <= -sine {
         return 0.0;
     }
