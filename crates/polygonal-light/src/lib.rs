@@ -15,6 +15,7 @@
 mod exact;
 mod gather;
 mod light_record;
+mod operations;
 pub mod oracle;
 mod params;
 
@@ -29,6 +30,7 @@ pub use exact::Edges;
 pub use gather::{gather, linked_shader};
 pub use manylights_area_lights::Narrow;
 pub use manylights_harmonics::zonal::TriangleForm;
+pub use operations::{ExactOperations, exact_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};
 
 use gather::Records;

@@ -5,6 +5,7 @@ mod common;
 mod exact;
 mod gather;
 mod hard_cases;
+mod operations;
 mod shared;
 
 #[path = "../../scene/tests/common/tensor.rs"]
