@@ -85,8 +85,9 @@ impl<M: Estimator> Method for AreaLights<M> {
         &[CounterInfo { name: "lights", help: "that were gathered" }]
     }
 
-    fn cost(&self) -> Cost {
-        Cost { parameter: BANDS, grows: Direction::Up }
+    fn cost(&self) -> Option<Cost> {
+        let has_bands = M::PARAMETERS.iter().any(|info| info.name == BANDS);
+        has_bands.then_some(Cost { parameter: BANDS, grows: Direction::Up })
     }
 
     fn visibility(&self) -> Visibility {

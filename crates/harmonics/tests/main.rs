@@ -16,6 +16,7 @@ mod rotation;
 mod straight_line;
 mod thesis;
 mod tilt;
+mod triangle;
 mod unit;
 mod wgsl;
 mod window;

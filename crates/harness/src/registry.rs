@@ -84,7 +84,10 @@ mod tests {
     #[test]
     fn costs_are_positive_numbers() {
         for method in METHODS {
-            let cost = method.cost();
+            let Some(cost) = method.cost() else {
+                assert!(!method.is_progressive(), "{}", method.id());
+                continue;
+            };
             assert!(Amounts::new(cost, method.parameters()).is_some(), "{} {cost:?}", method.id());
             let declared = method.parameters().iter().find(|info| info.name == cost.parameter);
             let counts =
