@@ -2,6 +2,8 @@
 
 mod group;
 mod outline;
+#[cfg(test)]
+mod tests;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
