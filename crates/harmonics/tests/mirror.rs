@@ -170,7 +170,7 @@ fn short_arcs_keep_their_digits() {
     const BANDS: usize = 9;
     // P_l alone, of which B_{l−1} is the highest.
     for l in 1..BANDS {
-        let mut lobe = vec![0.0; BANDS];
+        let mut lobe = [0.0; BANDS];
         lobe[l] = 1.0;
         let text = zonal_edge(&lobe[..=l]).wgsl;
         let mut weights = lobe[..=l].to_vec();

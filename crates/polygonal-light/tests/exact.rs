@@ -1,6 +1,6 @@
 //! Exact triangles on the adapter against the oracle, near and far.
 
-use crate::common::{GPU, exact, glossy, metal, oblique, spiral, surface};
+use crate::common::{DIRECT, GPU, exact, glossy, metal, oblique, render, scene, spiral, surface};
 use crate::tensor;
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
@@ -127,5 +127,25 @@ fn no_seam_where_the_form_changes() {
                 assert!(worst < bound, "{brdf:?}, {limit}: {worst:e}");
             }
         }
+    }
+}
+
+#[test]
+fn pictures_by_default_and_of_every_words_edges() {
+    let scene = scene(5);
+    let (lights, eye) = (&scene.area_lights, scene.cameras[0].position.as_dvec3());
+    for texts in [&[][..], &[("edges", "own")], &[("edges", "shared"), ("bands", "5")]] {
+        let (image, surfaces) = render(&scene, [24, 18], texts, DIRECT).expect("a picture");
+        let bands = if texts.len() == 2 { 5 } else { 9 };
+        let settings = Settings { bands, ..exact(Edges::Own) };
+        let truth = |surface| oracle::radiance(surface, eye, lights, &settings).max(DVec3::ZERO);
+        let truth: Vec<_> = surfaces.iter().map(truth).collect();
+        let peak = truth.iter().map(|pixel| pixel.max_element()).fold(0.0, f64::max);
+        let errors = image.pixels.iter().zip(&truth).map(|(&pixel, truth)| {
+            (Vec3::from(pixel).as_dvec3() - truth).abs().max_element() / peak
+        });
+        let worst = errors.fold(0.0, f64::max);
+        println!("{texts:?}: {worst:.1e}");
+        assert!(peak > 0.0 && worst < 1e-5, "{texts:?}: {worst:e}");
     }
 }

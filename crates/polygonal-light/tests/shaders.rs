@@ -1,7 +1,7 @@
 //! What the linked WGSL holds.
 
-use crate::common::{GPU, settings};
-use manylights_polygonal_light::{Settings, TriangleForm, linked_shader};
+use crate::common::{GPU, exact, settings};
+use manylights_polygonal_light::{Edges, Settings, TriangleForm, linked_shader};
 use manylights_reflectance::ReceiverKinds;
 
 #[test]
@@ -17,6 +17,10 @@ fn a_shader_holds_what_its_scene_and_form_need() {
         assert_eq!(holds("cap_scales_of"), form != Point, "{form:?}");
         assert_eq!(holds("point_scales"), form == Point, "{form:?}");
     }
+    let wgsl = linked_shader(ReceiverKinds::default(), &exact(Edges::Own)).expect("links").wgsl;
+    for word in ["shapes", "glossy", "specular", "lobe_dot", "polygon_weights", "evaluate"] {
+        assert!(!wgsl.contains(word), "`{word}` in the exact Lambertian shader:\n{wgsl}");
+    }
 }
 
 #[test]
@@ -30,8 +34,8 @@ fn every_permutation_is_valid() {
         ReceiverKinds { colored: true, measured: true, ..specular },
     ];
     for (kinds, bands) in kinds.into_iter().flat_map(|kinds| [1, 2, 9, 15].map(|n| (kinds, n))) {
-        for form in TriangleForm::ALL {
-            let shader = linked_shader(kinds, &Settings { bands, ..settings(form) });
+        for settings in TriangleForm::ALL.map(settings).into_iter().chain([exact(Edges::Own)]) {
+            let shader = linked_shader(kinds, &Settings { bands, ..settings });
             shader.expect("links").compile(&GPU).map(|_| ()).expect("valid WGSL");
         }
     }

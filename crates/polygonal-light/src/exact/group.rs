@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
 
-use super::Face;
+use super::face::Face;
 
 /// Of triangles that lie in one plane, connected by edges, and all shine to the same sides.
 pub(super) struct Group {

@@ -1,5 +1,6 @@
 //! The records of exact triangles: what the adapter sums of them, near and far.
 
+mod face;
 mod group;
 mod outline;
 #[cfg(test)]
@@ -9,6 +10,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use manylights_scene::AreaLight;
 
+use face::Face;
 use group::Group;
 
 /// Whose edges are integrated.
@@ -59,31 +61,8 @@ struct Corner {
     beside: f32,
 }
 
-/// A triangle of light with an area.
-#[derive(Clone, Copy, Debug)]
-struct Face {
-    corners: [Vec3; 3],
-    radiance: Vec3,
-    two_sided: bool,
-}
-
-impl Face {
-    fn new(light: &AreaLight) -> Option<Self> {
-        let AreaLight::Triangle { corners, radiance, two_sided } = *light else { return None };
-        let face = Self { corners, radiance, two_sided };
-        // In f32 as well.
-        (face.across().length() as f32 > 0.0).then_some(face)
-    }
-
-    /// Twice its area along the normal of its front.
-    fn across(&self) -> DVec3 {
-        let [a, b, c] = self.corners.map(|corner| corner.as_dvec3());
-        (b - a).cross(c - a)
-    }
-}
-
 impl ExactRecord {
-    /// Of all lights that are triangles with an area.
+    /// Of all lights that are triangles with an area and not black.
     pub(crate) fn all(lights: &[AreaLight], edges: Edges) -> Vec<Self> {
         let faces: Vec<_> = lights.iter().filter_map(Face::new).collect();
         match edges {

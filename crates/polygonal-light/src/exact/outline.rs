@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
 
-use super::Face;
+use super::face::Face;
 use super::group::{Group, bits, edges as around};
 
 /// With the radiance to its left, as seen from the front, less that to its right.

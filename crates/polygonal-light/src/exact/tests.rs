@@ -67,6 +67,9 @@ fn edges_hold_the_differences_of_radiances() {
     let [triangles, edges, far] = counts(&cells, Edges::Shared);
     // Rows and columns: 4 lines inside of equal difference are one edge each; the outline changes in each cell.
     assert_eq!((triangles, edges, far), (0, 4 + 4 + 20, 50));
+    // What is black is not there.
+    let half = square(2, |x, _| Some(if x == 0 { Vec3::ZERO } else { Vec3::ONE }));
+    assert_eq!(counts(&half, Edges::Shared), [0, 4, 2]);
     // A hole has an outline; what is around it keeps its triangles.
     let ring = square(3, |x, y| (x != 1 || y != 1).then_some(Vec3::ONE));
     assert_eq!(counts(&ring, Edges::Shared), [0, 8, 16]);
