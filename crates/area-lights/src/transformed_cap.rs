@@ -58,10 +58,9 @@ fn eigenvectors(mut matrix: [[f64; 3]; 3]) -> [(DVec3, f64); 3] {
         for row in &mut matrix {
             (row[p], row[q]) = (cos * row[p] - sin * row[q], sin * row[p] + cos * row[q]);
         }
-        for k in 0..3 {
-            let [first, second] = [matrix[p][k], matrix[q][k]];
-            (matrix[p][k], matrix[q][k]) = (cos * first - sin * second, sin * first + cos * second);
-        }
+        let [first, second] = [matrix[p], matrix[q]];
+        matrix[p] = [0, 1, 2].map(|k| cos * first[k] - sin * second[k]);
+        matrix[q] = [0, 1, 2].map(|k| sin * first[k] + cos * second[k]);
         (axes[p], axes[q]) = (cos * axes[p] - sin * axes[q], sin * axes[p] + cos * axes[q]);
     }
     let mut pairs = [0, 1, 2].map(|i| (axes[i], matrix[i][i]));
