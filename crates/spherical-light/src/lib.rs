@@ -43,7 +43,7 @@
 //! the roughness is the one of the GGX lobe that its own data stand next to
 //! ([`Brdf::alpha`](manylights_scene::Brdf)), an estimate: it decides as well.
 //!
-//! With `narrow = transformed` such a lobe meets each light as a linearly transformed cosine
+//! With `narrow = ltc` such a lobe meets each light as a linearly transformed cosine
 //! ([`transformed_cosine`](manylights_reflectance::transformed_cosine)): of that lamp it misses below 2 % at roughness
 //! 0.1 up to 60°. The Lambertian lobe under it stays on harmonics. It needs Schlick's Fresnel term and `product = full`;
 //! kernels of scenes without narrow lobes do not change.
