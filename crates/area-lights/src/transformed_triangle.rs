@@ -1,4 +1,4 @@
-//! Triangles.
+//! Triangles: `shaders/triangle_irradiance.wesl` in f64.
 
 use glam::DVec3;
 use manylights_paths::closed_form::polygon_irradiance;
@@ -6,8 +6,13 @@ use manylights_reflectance::transformed_cosine::TransformedCosine;
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// Irradiance of what a transform makes of a triangle above the horizon.
-pub(super) fn irradiance(cosine: &TransformedCosine, corners: [DVec3; 3], two_sided: bool) -> f64 {
+/// Irradiance, sr, of what a transform makes of a triangle of unit radiance above the horizon, whose corners are in
+/// the frame of normal and view, counter-clockwise as seen from its front.
+pub fn transformed_triangle(
+    cosine: &TransformedCosine,
+    corners: [DVec3; 3],
+    two_sided: bool,
+) -> f64 {
     let above = above_horizon(&corners);
     let corners: Vec<_> = above.iter().map(|&corner| cosine.apply(corner).to_array()).collect();
     let front = polygon_irradiance(UP, &corners);
