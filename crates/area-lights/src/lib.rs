@@ -24,6 +24,6 @@ pub use gather::{AreaGather, LightBatches};
 pub use gather_shader::{EstimatorShader, GatherShader};
 pub use irradiance::IRRADIANCE;
 pub use narrow::Narrow;
-pub use run::AreaLightRun;
+pub use run::{AreaLightRun, TRANSFORMED_OPERATIONS, cap_operations};
 pub use transformed_cap::transformed_cap;
 pub use transformed_triangle::transformed_triangle;

@@ -50,7 +50,7 @@ fn needs_corners(form: TriangleForm) -> bool {
 }
 
 /// Whether narrow lobes are transformed cosines.
-fn transformed(kinds: ReceiverKinds, settings: &Settings) -> bool {
+pub(crate) fn transformed(kinds: ReceiverKinds, settings: &Settings) -> bool {
     kinds.narrow && settings.narrow == Narrow::Transformed
 }
 

@@ -126,7 +126,6 @@ mod params;
 
 use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
 use manylights_gpu::Buffer;
-use manylights_harmonics::even_count;
 use manylights_method::{Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::AreaLight;
@@ -135,7 +134,7 @@ pub use exact::Edges;
 pub use gather::{gather, linked_shader};
 pub use manylights_area_lights::Narrow;
 pub use manylights_harmonics::zonal::TriangleForm;
-pub use operations::{ExactOperations, exact_operations};
+pub use operations::{ExactOperations, exact_operations, record_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};
 
 use gather::Records;
@@ -168,19 +167,19 @@ impl Estimator for PolygonalLights {
         let shader = linked_shader(kinds, &settings)?;
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
-        let (products, count) = (even_count(settings.bands) * kinds.channels(), lights.len());
+        let (operations, count) = (record_operations(kinds, &settings), lights.len());
         Ok(match Records::new(&lights, kinds, &settings) {
             Records::Exact(records) => {
-                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), products))
+                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
             }
             Records::Centers(records) => {
-                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), products))
+                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
             }
             Records::Corners(records) => {
-                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), products))
+                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
             }
             Records::Outlined(records) => {
-                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), products))
+                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
             }
         })
     }
