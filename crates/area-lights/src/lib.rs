@@ -12,6 +12,7 @@ mod irradiance;
 mod narrow;
 mod run;
 mod transformed_cap;
+mod transformed_segment;
 mod transformed_triangle;
 
 /// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same

@@ -6,6 +6,8 @@ use glam::{DMat3, DVec3};
 use manylights_paths::closed_form::sphere_irradiance;
 use manylights_reflectance::transformed_cosine::TransformedCosine;
 
+use crate::transformed_segment::Segment;
+
 /// Irradiance, sr, of what a transform makes of a cap of unit radiance above the horizon: about `w`, a unit vector in
 /// the frame of normal and view, with this sine of its half-angle.
 pub fn transformed_cap(cosine: &TransformedCosine, w: DVec3, sine: f64) -> f64 {
@@ -19,34 +21,49 @@ pub fn transformed_cap(cosine: &TransformedCosine, w: DVec3, sine: f64) -> f64 {
     let flat = w.x.hypot(w.y);
     let sideways = if flat > 0.0 { DVec3::new(-w.y, w.x, 0.0) / flat } else { DVec3::Y };
     let upwards = w.cross(sideways);
-    let [mut center, mut height, mut width] = [0.0, 1.0, 1.0];
+    let middle = cosine.apply(distance * w);
+    let axes = [sideways, upwards].map(|axis| cosine.apply(sine * axis));
     // Where transform and surface share their horizon, the cap's formula has it.
-    if cosine.along[0] != 0.0 {
-        let cut = (-w.z * distance / (flat * sine).max(f64::MIN_POSITIVE)).clamp(-1.0, 1.0);
-        if cut == 1.0 {
-            return 0.0;
-        }
-        // A circle's segment, and the ellipse of its height and area.
-        let area = cut.acos() - cut * ((1.0 - cut) * (1.0 + cut)).sqrt();
-        [center, height] = [0.5 * (1.0 + cut), 0.5 * (1.0 - cut)];
-        width = area / (PI * height);
+    if cosine.along[0] == 0.0 {
+        return ellipse(middle, axes);
     }
-    let middle = distance * w + center * sine * upwards;
-    let axes = [height * sine * upwards, width * sine * sideways].map(|axis| cosine.apply(axis));
-    ellipse(cosine.apply(middle), axes)
+    // Where the horizon cuts the disk, from −1 (below it) to 1.
+    let cut = (-w.z * distance / (flat * sine).max(f64::MIN_POSITIVE)).clamp(-1.0, 1.0);
+    if cut == -1.0 {
+        return ellipse(middle, axes);
+    }
+    if cut == 1.0 {
+        return 0.0;
+    }
+    Segment { center: middle, axes, cut }.irradiance()
 }
 
 /// Of an ellipse with any two conjugate half-axes: exact above the horizon, else that of the cap of the same
 /// form factor about the same axis.
-fn ellipse(center: DVec3, [a, b]: [DVec3; 2]) -> f64 {
-    let outer = |i: usize, k: usize| center[i] * center[k] - a[i] * a[k] - b[i] * b[k];
-    let dual = [0, 1, 2].map(|i| [0, 1, 2].map(|k| outer(i, k)));
-    let pairs = eigenvectors(dual);
-    let (axis, kappa) = pairs[0];
-    let lose = |other: f64| (-other).max(0.0) / (kappa - other);
-    let form_factor = (lose(pairs[1].1) * lose(pairs[2].1)).sqrt();
-    let cosine = if axis.dot(center) < 0.0 { -axis.z } else { axis.z };
-    sphere_irradiance(cosine.clamp(-1.0, 1.0), form_factor.sqrt().min(1.0))
+fn ellipse(center: DVec3, axes: [DVec3; 2]) -> f64 {
+    let Cone { frame: [.., axis], half_axes } = Cone::new(center, axes);
+    let form_factor: f64 = half_axes.map(|half| half / half.hypot(1.0)).iter().product();
+    sphere_irradiance(axis.z.clamp(-1.0, 1.0), form_factor.sqrt().min(1.0))
+}
+
+/// An elliptic cone.
+pub(crate) struct Cone {
+    /// Long and short axis, and that of the cone, right-handed.
+    pub(crate) frame: [DVec3; 3],
+    /// At height 1.
+    pub(crate) half_axes: [f64; 2],
+}
+
+impl Cone {
+    /// Over an ellipse with any two conjugate half-axes, from the eigenvectors of its dual.
+    pub(crate) fn new(center: DVec3, [a, b]: [DVec3; 2]) -> Self {
+        let outer = |i: usize, k: usize| center[i] * center[k] - a[i] * a[k] - b[i] * b[k];
+        let dual = [0, 1, 2].map(|i| [0, 1, 2].map(|k| outer(i, k)));
+        let [(axis, kappa), (_, short), (long_axis, long)] = eigenvectors(dual);
+        let axis = if axis.dot(center) < 0.0 { -axis } else { axis };
+        let half_axes = [long, short].map(|value| ((-value).max(0.0) / kappa).sqrt());
+        Self { frame: [long_axis, axis.cross(long_axis), axis], half_axes }
+    }
 }
 
 /// Of a symmetric matrix, with their values, the largest first (Jacobi 1846).

@@ -16,8 +16,10 @@ pub struct LightOperations {
     pub near: Operations,
     /// A far triangle, by seven points a triangle.
     pub far: Operations,
-    /// A sphere from outside.
+    /// A sphere from outside, whole.
     pub sphere: Operations,
+    /// A near one that the horizon cuts: an arc and two chords behind the transform.
+    pub cut: Operations,
 }
 
 /// Laguerre's steps towards an ellipse's axis.
@@ -37,17 +39,27 @@ pub fn light_operations(kinds: ReceiverKinds) -> Result<LightOperations, Error> 
     let [counted, taken] = if kinds.specular { [3, 2] } else { [1, 1] };
     let frame = less(of("estimator__1of_triangle")?, irradiance * counted);
     let triangle = |other| frame + less(irradiance, other) * taken;
-    let mut sphere = of("estimator__1of_sphere")?;
+    let all = of("estimator__1of_sphere")?;
+    let (mut sphere, mut cut) = (all, all);
     if kinds.specular {
         // Neither the cosine's part nor what is inside.
         let inside = of("_1disk_irradiance__1transformed_hemisphere")? * taken;
-        sphere = less(sphere, of("_1disk_irradiance__1cap_irradiance")? + inside);
+        let all = less(all, of("_1disk_irradiance__1cap_irradiance")? + inside);
+        let segment = of("_1segment_irradiance__1segment_irradiance")?;
+        // Of six arcs and three pairs of chords in the text one is taken.
+        let chords = of("_1segment_irradiance_level")? + of("_1triangle_irradiance_edge")?;
+        let others = of("_1segment_irradiance_arc")? * 5 + chords * 2;
+        let others = others + of("_1segment_irradiance__1by_points")?;
+        sphere = less(all, segment * taken);
+        let ellipse = of("_1disk_irradiance__1ellipse_irradiance")?;
+        cut = less(all, (ellipse + others) * taken);
     }
     Ok(LightOperations {
         receiver: of("estimator_receiver")?,
         near: triangle(points),
         far: triangle(edges),
         sphere,
+        cut,
     })
 }
 

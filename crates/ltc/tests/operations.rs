@@ -12,13 +12,13 @@ fn of_lights_on_every_lobe() {
     let colored = ReceiverKinds { colored: true, ..specular };
     let count = |of: Operations| of.simple + of.special;
     for (kinds, known) in [
-        (lambertian, [70, 641, 520, 130]),
-        (specular, [223, 1157, 915, 1018]),
-        (colored, [223, 1157, 915, 1018]),
+        (lambertian, [70, 641, 520, 130, 130]),
+        (specular, [223, 1157, 915, 922, 1792]),
+        (colored, [223, 1157, 915, 922, 1792]),
     ] {
         let found = light_operations(kinds).expect("it links");
-        let LightOperations { receiver, near, far, sphere } = found;
-        assert_eq!([receiver, near, far, sphere].map(count), known, "{kinds:?}");
+        let LightOperations { receiver, near, far, sphere, cut } = found;
+        assert_eq!([receiver, near, far, sphere, cut].map(count), known, "{kinds:?}");
     }
     let dearest = count(light_operations(specular).expect("it links").near) as f64;
     assert!((dearest / OPERATIONS as f64 - 1.0).abs() < 0.2, "{dearest} for {OPERATIONS}");
