@@ -5,6 +5,7 @@
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
 mod area_lights;
+mod cone;
 mod frame;
 mod gather;
 mod gather_shader;

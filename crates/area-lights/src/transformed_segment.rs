@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use crate::transformed_cap::Cone;
+use crate::cone::Cone;
 
 /// Of the radius, within which two chords are one.
 const ONE_CHORD: f64 = 1e-5;
