@@ -12,6 +12,7 @@ mod irradiance;
 mod narrow;
 mod run;
 mod transformed_cap;
+mod triangle_mean;
 
 /// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same
 /// estimator gives another picture.
@@ -25,3 +26,4 @@ pub use irradiance::IRRADIANCE;
 pub use narrow::Narrow;
 pub use run::AreaLightRun;
 pub use transformed_cap::transformed_cap;
+pub use triangle_mean::triangle_mean;

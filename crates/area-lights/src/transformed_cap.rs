@@ -43,8 +43,9 @@ fn ellipse(center: DVec3, [a, b]: [DVec3; 2]) -> f64 {
     let dual = [0, 1, 2].map(|i| [0, 1, 2].map(|k| outer(i, k)));
     let pairs = eigenvectors(dual);
     let (axis, kappa) = pairs[0];
-    let lose = |other: f64| (-other).max(0.0) / (kappa - other);
-    let form_factor = (lose(pairs[1].1) * lose(pairs[2].1)).sqrt();
+    // √(κ₁κ₂/((κ − κ₁)(κ − κ₂))) with κκ₁κ₂ = det²: of small ellipses κ₁ and κ₂ themselves have no digits left.
+    let apart = (kappa - pairs[1].1) * (kappa - pairs[2].1);
+    let form_factor = center.dot(a.cross(b)).abs() / (kappa * apart).sqrt();
     let cosine = if axis.dot(center) < 0.0 { -axis.z } else { axis.z };
     sphere_irradiance(cosine.clamp(-1.0, 1.0), form_factor.sqrt().min(1.0))
 }
@@ -69,7 +70,8 @@ fn eigenvectors(mut matrix: [[f64; 3]; 3]) -> [(DVec3, f64); 3] {
 }
 
 /// Of the hemisphere about `w`, above the horizon and that of the transform, if they differ: half the sum over three great
-/// circles of the arc that the other two leave, times the height of the circle's normal.
+/// circles of the arc that the other two leave, times the height of the circle's normal. Of a circle that bounds two of the
+/// half-spaces, as where the point is at the sphere's centre, each has a half.
 fn hemisphere(cosine: &TransformedCosine, w: DVec3) -> f64 {
     // M w for M with the inverse of `cosine`, transposed: normals of half-spaces.
     let [x, y, z] = DMat3::IDENTITY.to_cols_array_2d().map(|axis| cosine.apply(axis.into()));
@@ -81,12 +83,9 @@ fn hemisphere(cosine: &TransformedCosine, w: DVec3) -> f64 {
     let normals = [light, (inverse * DVec3::Z).normalize(), DVec3::Z];
     let arc = |i: usize| {
         let [n, a, b] = [0, 1, 2].map(|k| normals[(i + k) % 3]);
-        let [a, b] = [a, b].map(|other| (other - n.dot(other) * n).normalize_or_zero());
-        if a == DVec3::ZERO || b == DVec3::ZERO {
-            PI
-        } else {
-            PI - a.dot(b).clamp(-1.0, 1.0).acos()
-        }
+        let [a, b] = [n.cross(a), n.cross(b)];
+        let is_twice = a == DVec3::ZERO || b == DVec3::ZERO;
+        PI - if is_twice { FRAC_PI_2 } else { a.cross(b).length().atan2(a.dot(b)) }
     };
     let sum: f64 = (0..3).map(|i| arc(i) * normals[i].z).sum();
     (0.5 * sum).clamp(0.0, 2.0 * FRAC_PI_2)

@@ -8,6 +8,10 @@ use manylights_scene::AreaLight;
 
 use crate::families::{Family, materials};
 
+/// Share of what a light could send at most, below which nobody asks for digits: tails of narrow lobes, what bands
+/// leak below the horizon, lights without area.
+pub(crate) const DARK: f64 = 1e-3;
+
 /// Radiances of surfaces that a camera sees under lights, by the adapter and by the oracle.
 pub(crate) type Radiances =
     Box<dyn Fn(&[SurfaceRecord], Vec3, &[AreaLight]) -> (Vec<[f32; 3]>, Vec<DVec3>)>;
@@ -18,7 +22,7 @@ pub(crate) struct Column {
     pub(crate) radiances: Radiances,
 }
 
-/// Relative to the largest truth of a path on one material.
+/// Relative to the largest truth of a path on one material, or to `DARK` where that is less.
 #[derive(Clone, Copy, Default)]
 struct Outcome {
     error: f64,
@@ -32,8 +36,7 @@ struct Outcome {
 
 impl Outcome {
     fn of(pairs: &[[f64; 2]]) -> Self {
-        let largest = pairs.iter().map(|pair| pair[1].abs()).fold(0.0, f64::max);
-        let largest = if largest == 0.0 { 1.0 } else { largest };
+        let largest = pairs.iter().map(|pair| pair[1].abs()).fold(DARK, f64::max);
         let errors = pairs.iter().map(|pair| (pair[0] - pair[1]).abs() / largest);
         let mut outcome = Self { error: errors.fold(0.0, f64::max), ..Self::default() };
         for pair in pairs {
