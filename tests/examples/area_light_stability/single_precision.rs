@@ -14,6 +14,9 @@ const CORNERS: [Vec3; 3] =
 const PLACES: u32 = 200;
 const BANDS: usize = 9;
 
+/// By corners as seen from the point, sr.
+type SolidAngle = fn([[f32; 3]; 3]) -> f32;
+
 /// So far from the triangle in all directions.
 fn places(distance: f32) -> impl Iterator<Item = Vec3> {
     (0..PLACES).map(move |i| {
@@ -41,12 +44,12 @@ fn row(name: &str, errors: impl Iterator<Item = f64>) -> String {
 /// By van Oosterom and Strackee from differences of corners and as printed, and by Arvo.
 pub(crate) fn solid_angles() -> String {
     let distances = [1.0, 10.0, 100.0, 1000.0];
-    let forms: [(&str, fn([[f32; 3]; 3]) -> f32); 3] = [
+    let forms: [(&str, SolidAngle); 3] = [
         ("van Oosterom and Strackee, from differences", |corners| solid_angle(&corners)),
         ("the same, of unit vectors (thesis 4.13)", thesis::oosterom_of_units),
         ("Arvo 1995 (thesis 4.12)", thesis::arvo),
     ];
-    let worst = |form: fn([[f32; 3]; 3]) -> f32, distance| {
+    let worst = |form: SolidAngle, distance| {
         let error = |place: Vec3| {
             let truth = solid_angle(&seen(place).map(|corner| corner.map(f64::from))).abs();
             (f64::from(form(seen(place))).abs() - truth).abs() / truth
