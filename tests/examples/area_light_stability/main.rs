@@ -45,8 +45,7 @@ fn main() {
          Beyond 1e-5:\n\
          - Far ones: one point in the stead of seven, from 100 sizes of a triangle (33 of the panel) on; the form changes to \
          seven at 8 sizes, before which sums over edges have lost two digits.\n\
-         - Vertices and edges: a point at 1e-4 sizes from them knows its place beside them to 6e-8 sizes, as of the edge \
-         of the huge triangle; diagonals at 1e-3, ten times better.\n\
+         - Vertices and edges: at 1e-4 sizes from one a point's place beside it is known in f32 to 6e-4 of that distance.\n\
          - Needles: digits go with their width, relative to a light that is itself that narrow.\n\
          - In the plane: exact triangles send nothing within 1e-5 sizes of it, the truth is that of the side on \
          which a rounded point lies; so it is with the solid angle of three forms.\n\
@@ -54,7 +53,8 @@ fn main() {
          ## ltc\n\n\
          Triangles, then spheres.\n\n{of_both}\n\
          Beyond 1e-5:\n\
-         - Vertices, edges, needles, in the plane, touching a sphere: as above; corners are known from the first \
+         - Vertices, edges, needles, in the plane, touching a sphere: as above, but by up to 3.5 times more at vertices, \
+         for which rounding of the point alone does not account; corners are known from the first \
          corner and the edges, to 6e-8 of a size, so that one without area may send 1e-7 of a light.\n\
          - At 8 sizes and beside the plane: tails of the narrowest lobe, in which a sum over edges, of transformed \
          triangles up to 10 of their sizes away, has lost 6e-7 of the light.\n\n\
