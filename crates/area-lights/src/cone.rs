@@ -8,6 +8,8 @@ pub(crate) struct Cone {
     pub(crate) frame: [DVec3; 3],
     /// At height 1.
     pub(crate) half_axes: [f64; 2],
+    /// About the axis.
+    pub(crate) form_factor: f64,
 }
 
 impl Cone {
@@ -18,7 +20,10 @@ impl Cone {
         let [(axis, kappa), (_, short), (long_axis, long)] = eigenvectors(dual);
         let axis = if axis.dot(center) < 0.0 { -axis } else { axis };
         let half_axes = [long, short].map(|value| ((-value).max(0.0) / kappa).sqrt());
-        Self { frame: [long_axis, axis.cross(long_axis), axis], half_axes }
+        // √(κ₁κ₂/((κ − κ₁)(κ − κ₂))) with κκ₁κ₂ = det²: of small ellipses κ₁ and κ₂ themselves have no digits left.
+        let apart = (kappa - short) * (kappa - long);
+        let form_factor = center.dot(a.cross(b)).abs() / (kappa * apart).sqrt();
+        Self { frame: [long_axis, axis.cross(long_axis), axis], half_axes, form_factor }
     }
 }
 

@@ -15,6 +15,7 @@ mod run;
 mod transformed_cap;
 mod transformed_segment;
 mod transformed_triangle;
+mod triangle_mean;
 
 /// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same
 /// estimator gives another picture.
@@ -29,3 +30,4 @@ pub use narrow::Narrow;
 pub use run::{AreaLightRun, TRANSFORMED_OPERATIONS, cap_operations};
 pub use transformed_cap::transformed_cap;
 pub use transformed_triangle::transformed_triangle;
+pub use triangle_mean::triangle_mean;

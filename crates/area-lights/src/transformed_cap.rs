@@ -42,13 +42,13 @@ pub fn transformed_cap(cosine: &TransformedCosine, w: DVec3, sine: f64) -> f64 {
 /// Of an ellipse with any two conjugate half-axes: exact above the horizon, else that of the cap of the same
 /// form factor about the same axis.
 fn ellipse(center: DVec3, axes: [DVec3; 2]) -> f64 {
-    let Cone { frame: [.., axis], half_axes } = Cone::new(center, axes);
-    let form_factor: f64 = half_axes.map(|half| half / half.hypot(1.0)).iter().product();
+    let Cone { frame: [.., axis], form_factor, .. } = Cone::new(center, axes);
     sphere_irradiance(axis.z.clamp(-1.0, 1.0), form_factor.sqrt().min(1.0))
 }
 
 /// Of the hemisphere about `w`, above the horizon and that of the transform, if they differ: half the sum over three great
-/// circles of the arc that the other two leave, times the height of the circle's normal.
+/// circles of the arc that the other two leave, times the height of the circle's normal. Of a circle that bounds two of the
+/// half-spaces, as where the point is at the sphere's centre, each has a half.
 fn hemisphere(cosine: &TransformedCosine, w: DVec3) -> f64 {
     // M w for M with the inverse of `cosine`, transposed: normals of half-spaces.
     let [x, y, z] = DMat3::IDENTITY.to_cols_array_2d().map(|axis| cosine.apply(axis.into()));
@@ -60,12 +60,9 @@ fn hemisphere(cosine: &TransformedCosine, w: DVec3) -> f64 {
     let normals = [light, (inverse * DVec3::Z).normalize(), DVec3::Z];
     let arc = |i: usize| {
         let [n, a, b] = [0, 1, 2].map(|k| normals[(i + k) % 3]);
-        let [a, b] = [a, b].map(|other| (other - n.dot(other) * n).normalize_or_zero());
-        if a == DVec3::ZERO || b == DVec3::ZERO {
-            PI
-        } else {
-            PI - a.dot(b).clamp(-1.0, 1.0).acos()
-        }
+        let [a, b] = [n.cross(a), n.cross(b)];
+        let is_twice = a == DVec3::ZERO || b == DVec3::ZERO;
+        PI - if is_twice { FRAC_PI_2 } else { a.cross(b).length().atan2(a.dot(b)) }
     };
     let sum: f64 = (0..3).map(|i| arc(i) * normals[i].z).sum();
     (0.5 * sum).clamp(0.0, 2.0 * FRAC_PI_2)

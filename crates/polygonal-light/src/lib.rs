@@ -35,7 +35,8 @@
 //! | 110 | 5e-5 | |
 //! | 1 000 | 1e-6 | |
 //!
-//! Where one form follows the other radiances differ by 6e-6 (8 sizes) and 5e-5 (100). What n bands leave of
+//! Where one form follows the other radiances differ by 6e-6 (8 sizes) and 5e-5 (100; up to 1.7e-4 of the largest
+//! on glossy receivers, `results/stability/area-lights.md`). What n bands leave of
 //! Lambert's formula, rms over receivers all around at one size: 0.013, 0.0046, 0.00095 and 0.00024 of the largest
 //! irradiance for 3, 5, 9 and 15 bands.
 //!
