@@ -51,7 +51,9 @@ mod gather;
 mod operations;
 pub mod oracle;
 
-use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
+use manylights_area_lights::{
+    AreaGather, AreaLightFrame, AreaLightRun, Edges, Estimator, SceneTables,
+};
 use manylights_gpu::Buffer;
 use manylights_method::{Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::Materials;
@@ -71,7 +73,7 @@ impl Estimator for Ltc {
     const ID: &'static str = "ltc";
     const TITLE: &'static str = "area lights by linearly transformed cosines (Heitz et al. 2016)";
     const VERSION: u32 = 1;
-    const PARAMETERS: &'static [ParameterInfo] = &[];
+    const PARAMETERS: &'static [ParameterInfo] = &[Edges::PARAMETER];
     const TAKES: &'static str = "triangles and spheres";
     type Tables = LobeTables;
 
@@ -81,11 +83,11 @@ impl Estimator for Ltc {
 
     fn start<'a>(
         frame: AreaLightFrame<'a>,
-        _: &Parameters,
+        parameters: &Parameters,
         tables: &LobeTables,
     ) -> Result<Box<dyn Run + 'a>, Error> {
         let AreaLightFrame { scene, eye, on_gpu, pixels, lights } = frame;
-        let records: Vec<_> = lights.iter().map(LightRecord::new).collect();
+        let records = LightRecord::all(&lights, Edges::new(parameters));
         let kinds = Materials::of_scene(scene).kinds();
         let shader = linked_shader(kinds, LightKinds::of(&records))?;
         let surfaces = (on_gpu.surfaces(), pixels);

@@ -7,10 +7,11 @@ use glam::{DVec3, Vec3};
 use super::face::Face;
 
 /// Of triangles that lie in one plane, connected by edges, and all shine to the same sides.
-pub(super) struct Group {
-    pub(super) faces: Vec<Face>,
+pub struct Group {
+    /// At least one.
+    pub faces: Vec<Face>,
     /// Of the front, of any length.
-    pub(super) normal: DVec3,
+    pub normal: DVec3,
     /// How far corners may lie off their plane, and those that vanish from a line, m.
     pub(super) tolerance: f64,
 }
@@ -25,8 +26,8 @@ pub(super) fn bits(corner: Vec3) -> [u32; 3] {
     (corner + Vec3::ZERO).to_array().map(f32::to_bits)
 }
 
-/// In the order of their first triangles.
-pub(super) fn all(faces: &[Face]) -> Vec<Group> {
+/// All triangles in groups, in the order of their first ones.
+pub fn groups(faces: &[Face]) -> Vec<Group> {
     let neighbours = neighbours(faces);
     let mut taken = vec![false; faces.len()];
     let mut groups = Vec::new();
@@ -73,7 +74,7 @@ fn in_one_plane(faces: Vec<Face>) -> Vec<Group> {
 fn neighbours(faces: &[Face]) -> Vec<Vec<usize>> {
     let mut by_edge: HashMap<_, Vec<usize>> = HashMap::new();
     for (index, face) in faces.iter().enumerate() {
-        for (from, to) in edges(face) {
+        for (from, to) in face.edges() {
             by_edge.entry((bits(from), bits(to))).or_default().push(index);
         }
     }
@@ -82,7 +83,7 @@ fn neighbours(faces: &[Face]) -> Vec<Vec<usize>> {
         faces[one].two_sided == faces[other].two_sided && normals[one].dot(normals[other]) >= ALIKE
     };
     let of_face = |(index, face): (usize, &Face)| {
-        edges(face)
+        face.edges()
             .into_iter()
             .filter_map(|(from, to)| by_edge.get(&(bits(to), bits(from))))
             .flatten()
@@ -91,10 +92,4 @@ fn neighbours(faces: &[Face]) -> Vec<Vec<usize>> {
             .collect()
     };
     faces.iter().enumerate().map(of_face).collect()
-}
-
-/// Around a triangle.
-pub(super) fn edges(face: &Face) -> [(Vec3, Vec3); 3] {
-    let [a, b, c] = face.corners;
-    [(a, b), (b, c), (c, a)]
 }
