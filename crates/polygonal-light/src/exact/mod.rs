@@ -61,7 +61,7 @@ impl ExactRecord {
         plane.record(Kind::Triangle, face.corners, face.radiance)
     }
 
-    /// Its edges, then its triangles.
+    /// Its edges, each once by the difference of the radiances beside it, then its triangles.
     fn of_group(group: &Group) -> Vec<Self> {
         if let [face] = &group.faces[..] {
             return vec![Self::triangle(face)];
