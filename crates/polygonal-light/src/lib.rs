@@ -131,9 +131,8 @@ use manylights_method::{Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::AreaLight;
 
-pub use exact::Edges;
 pub use gather::{gather, linked_shader};
-pub use manylights_area_lights::Narrow;
+pub use manylights_area_lights::{Edges, Narrow};
 pub use manylights_harmonics::zonal::TriangleForm;
 pub use operations::{ExactOperations, exact_operations, record_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};
