@@ -41,8 +41,10 @@
 //! irradiance for 3, 5, 9 and 15 bands.
 //!
 //! ## Hard cases
-//! - In the plane, within 1e-5 sizes of it, nothing is seen: there an edge passes through the point, and a light
-//!   that is seen from both sides has a step. Everywhere else each edge's plane is defined.
+//! - In the plane an edge would pass through the point, and a light that is seen from both sides has a step. A
+//!   point within 1e-5 sizes of it, of the triangle or with `edges = shared` of its group, is moved to that
+//!   distance on its side, so that inside the polygon 2π are seen up to the plane; the plane itself is of the
+//!   back, as with spheres in the triangles' stead. Beside an oblique plane rounding says which side it is.
 //! - Needles, points next to edges and corners, on lines of edges, between opposite corners: within 1e-5 of what
 //!   a square of that size covers (`tests/hard_cases.rs`).
 //! - Curved surfaces that are cut so finely that neighbours seem flat are no groups; each triangle is its own.
