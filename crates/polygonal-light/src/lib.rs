@@ -55,15 +55,15 @@
 //!
 //! | bands | triangle | edge of a group | far | sphere | triangle over sphere | lobes to weights, once a batch |
 //! |---|---|---|---|---|---|---|
-//! | 5 | 1148 | 470 | 1157 | 187 | 6.1 | 427 |
-//! | 6 | 1595 | 619 | 1472 | 237 | 6.7 | 547 |
-//! | 7 | 2204 | 822 | 1836 | 294 | 7.5 | 708 |
-//! | 8 | 2867 | 1043 | 2249 | 358 | 8.0 | 894 |
-//! | 9 | 3692 | 1318 | 2711 | 429 | 8.6 | 1125 |
+//! | 5 | 1156 | 474 | 1157 | 184 | 6.3 | 427 |
+//! | 6 | 1603 | 623 | 1472 | 234 | 6.9 | 547 |
+//! | 7 | 2212 | 826 | 1836 | 291 | 7.6 | 708 |
+//! | 8 | 2875 | 1047 | 2249 | 355 | 8.1 | 894 |
+//! | 9 | 3700 | 1322 | 2711 | 426 | 8.7 | 1125 |
 //!
-//! Lambertian receivers: 5.7 to 5.1 times a sphere; coloured ones 5.6 to 7.8. Wang's 2n − 1 directions with sums
+//! Lambertian receivers: 6.0 to 5.3 times a sphere; coloured ones 5.7 to 7.8. Wang's 2n − 1 directions with sums
 //! of coefficients for three channels would take 2.4 times the operations of an edge. A square of 648 triangles
-//! takes 4 × 1318 near with shared edges, 2 × 2711 far, and 648 spheres 648 × 429.
+//! takes 4 × 1322 near with shared edges, 2 × 2711 far, and 648 spheres 648 × 426.
 //!
 //! ## Deviations from the paper
 //! - Weights of the lobe instead of coefficients of the light, as above.
