@@ -30,26 +30,28 @@ pub fn radiance(
     let receiver = Receiver::new(brdf, [normal, view], settings.bands, Form::Full, Damping::None);
     if settings.narrow == Narrow::Transformed && brdf.has_specular() && is_narrow(brdf.alpha) {
         let specular = of_surface(&brdf.into(), normal.dot(view));
-        let seen = match settings.approximation {
-            Approximation::Exact(_) => polygon::off_plane,
-            Approximation::Sphere(_) => std::convert::identity,
+        let reflected = |light: &AreaLight| {
+            narrow(&receiver, position, specular, (light, settings.approximation))
         };
-        let reflected = |light: &AreaLight| narrow(&receiver, position, specular, (light, seen));
         let specular: DVec3 = lights.iter().map(reflected).sum();
         return specular + of_bands(&receiver.lambertian(), [position, normal], lights, settings);
     }
     of_bands(&receiver, [position, normal], lights, settings)
 }
 
-/// A lobe's transform and magnitude under a triangle, and which corners are seen of those that are there.
+/// A lobe's transform and magnitude under a triangle.
 fn narrow(
     receiver: &Receiver,
     position: DVec3,
     (cosine, magnitude): (TransformedCosine, DVec3),
-    (light, seen): (&AreaLight, fn([DVec3; 3]) -> [DVec3; 3]),
+    (light, approximation): (&AreaLight, Approximation),
 ) -> DVec3 {
     let AreaLight::Triangle { corners, radiance, two_sided } = *light else { return DVec3::ZERO };
-    let corners = seen(corners.map(|corner| corner.as_dvec3() - position));
+    let seen = corners.map(|corner| corner.as_dvec3() - position);
+    let corners = match approximation {
+        Approximation::Exact(_) => polygon::off_plane(seen),
+        Approximation::Sphere(_) => seen,
+    };
     let local = |corner: DVec3| DVec3::from(receiver.frame.map(|axis| axis.dot(corner)));
     let irradiance = transformed_triangle(&cosine, corners.map(local), two_sided);
     radiance.as_dvec3() * magnitude * irradiance
