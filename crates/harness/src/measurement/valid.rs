@@ -231,9 +231,10 @@ pub(crate) mod tests {
             check(&cell)
         };
         let missing = Err("`amount` is missing".to_owned());
-        assert_eq!(without("ltc", Budget::Count), Ok(()));
-        assert_eq!(without("vpl", Budget::Count), missing);
-        assert_eq!(without("reference", Budget::Count), missing);
+        for method in METHODS {
+            let expected = if method.cost().is_some() { missing.clone() } else { Ok(()) };
+            assert_eq!(without(method.id(), Budget::Count), expected, "{}", method.id());
+        }
         // Of nobody here.
         assert_eq!(without("m", Budget::Count), Ok(()));
         assert_eq!(without("m", Budget::Seconds(0.1)), missing);
