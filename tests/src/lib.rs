@@ -35,6 +35,19 @@ pub fn under_spheres(count: u32) -> Scene {
     scene
 }
 
+/// The same under triangles that face its middle, every other one from both sides.
+pub fn under_triangles(count: u32) -> Scene {
+    let mut scene = under_spheres(count);
+    scene.name = format!("trio under {count} triangles");
+    for (i, light) in scene.area_lights.iter_mut().enumerate() {
+        let AreaLight::Sphere { center, radius, radiance } = *light else { continue };
+        let (right, up) = center.normalize().any_orthonormal_pair();
+        let corners = [right - up, -right - up, up].map(|corner| center + 1.5 * radius * corner);
+        *light = AreaLight::Triangle { corners, radiance, two_sided: i % 2 == 1 };
+    }
+    scene
+}
+
 /// A scene on the adapter, seen by its first camera.
 pub struct Stage {
     /// As loaded.

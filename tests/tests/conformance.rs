@@ -8,7 +8,7 @@ use manylights_method::{Amounts, Baking, CounterInfo, Error, Method, Parameters,
 use manylights_metrics::RadianceImage;
 use manylights_scene::builtin::BUILTINS;
 use manylights_scene::{Transport, Visibility};
-use manylights_tests::{Stage, under_spheres};
+use manylights_tests::{Stage, under_spheres, under_triangles};
 
 const RESOLUTION: [u32; 2] = [12, 9];
 
@@ -46,10 +46,13 @@ fn finished(mut run: Box<dyn Run + '_>, documented: &[CounterInfo], what: &str) 
     run.resolve().unwrap_or_else(|error| panic!("{what}: {error}"))
 }
 
-/// The cost parameter at the amount that a method allows nearest to this one.
-fn work(method: &dyn Method, amount: u32) -> (&'static str, String) {
-    let amounts = Amounts::new(method.cost(), method.parameters()).expect("a cost");
-    (method.cost().parameter, amounts.nearest(amount.into()).to_string())
+/// The parameters with the cost parameter, where there is one, at the amount that a method allows nearest
+/// to this one.
+fn work(method: &dyn Method, amount: u32) -> Parameters {
+    let defaults = Parameters::defaults(method.parameters());
+    let Some(cost) = method.cost() else { return defaults };
+    let amounts = Amounts::new(cost, method.parameters()).expect("a cost");
+    defaults.with_number(cost.parameter, amounts.nearest(amount.into()))
 }
 
 /// The picture of a method with this much work; `None` where it declines, with a reason of one line.
@@ -60,8 +63,7 @@ fn picture(
     (amount, seed): (u32, u64),
 ) -> Option<RadianceImage> {
     let what = format!("{} on {}, {transport:?}", method.id(), stage.scene.name);
-    let (parameter, amount) = work(method, amount);
-    match stage.prepare(method, &[(parameter, &amount)], transport, seed) {
+    match method.prepare(&stage.frame(transport, seed), &work(method, amount)) {
         Ok(run) => Some(finished(run, method.counters(), &what)),
         Err(Error::Declined(reason)) => {
             assert!(reason.len() > 10 && reason.lines().count() == 1, "{what}: {reason}");
@@ -79,9 +81,7 @@ fn baked(
     transport: Transport,
 ) -> RadianceImage {
     let what = format!("{} on {}, {transport:?}, baked", method.id(), stage.scene.name);
-    let (parameter, amount) = work(method, 33);
-    let parameters = Parameters::new(method.parameters(), [(parameter, &*amount)]);
-    let parameters = parameters.expect("in range");
+    let parameters = work(method, 33);
     // Of another seed, where it may serve both.
     let first = if baking.depends_on().seed { 1 } else { 2 };
     let bake = baking.bake(&stage.frame(transport, first), &parameters).expect("a bake");
@@ -99,7 +99,7 @@ fn baked(
 fn methods_decline_or_give_a_finite_picture_that_the_seed_decides_where_chance_does() {
     let mut rendered = BTreeSet::new();
     let builtins = BUILTINS.iter().map(|builtin| (builtin.make)());
-    for scene in builtins.chain([under_spheres(5)]) {
+    for scene in builtins.chain([under_spheres(5), under_triangles(5)]) {
         let stage = Stage::new(scene, RESOLUTION);
         for method in METHODS {
             for transport in transports() {
@@ -114,7 +114,8 @@ fn methods_decline_or_give_a_finite_picture_that_the_seed_decides_where_chance_d
                 let again = render(33, 1).expect("a picture");
                 assert!(again == image, "{what}: the same seed, another picture");
                 // What chance has no part in is exact: more work changes nothing either.
-                let exact = || render(70, 1).expect("a picture") == image;
+                let more = || method.cost().map(|_| render(70, 1).expect("a picture"));
+                let exact = || more().is_some_and(|more| more == image);
                 let other = render(33, 2).expect("a picture");
                 if method.is_random() {
                     assert!(other != image || exact(), "{what}: the seed does not reach it");

@@ -55,8 +55,8 @@ mod dummy {
             &[CounterInfo { name: "guesses", help: "made of the brightness" }]
         }
 
-        fn cost(&self) -> Cost {
-            Cost { parameter: "guesses", grows: Direction::Up }
+        fn cost(&self) -> Option<Cost> {
+            Some(Cost { parameter: "guesses", grows: Direction::Up })
         }
 
         fn visibility(&self) -> Visibility {
@@ -103,7 +103,101 @@ mod dummy {
     }
 }
 
-const METHODS: Methods = &[&dummy::Dummy];
+/// The same grey at once: no amount of work.
+mod flat {
+    use manylights_method::{
+        ChoiceWord, Cost, CounterInfo, Error, Frame, Method, ParameterInfo, ParameterKind,
+        Parameters, PassTime, Processor, Progress, Run,
+    };
+    use manylights_metrics::RadianceImage;
+    use manylights_scene::Visibility;
+
+    pub(crate) struct Flat;
+
+    struct Paint {
+        resolution: [u32; 2],
+        grey: f32,
+    }
+
+    impl Method for Flat {
+        fn id(&self) -> &'static str {
+            "flat"
+        }
+
+        fn title(&self) -> &'static str {
+            "Grey, by decision"
+        }
+
+        fn version(&self) -> u32 {
+            1
+        }
+
+        fn processor(&self) -> Processor {
+            Processor::Cpu
+        }
+
+        fn parameters(&self) -> &'static [ParameterInfo] {
+            const TONES: &[ChoiceWord] = &[
+                ChoiceWord { word: "dark", help: "a tenth" },
+                ChoiceWord { word: "light", help: "a half" },
+            ];
+            &[ParameterInfo {
+                formerly: None,
+                introduced: None,
+                name: "tone",
+                help: "of the grey",
+                kind: ParameterKind::Choice { default: "dark", words: TONES },
+            }]
+        }
+
+        fn counters(&self) -> &'static [CounterInfo] {
+            &[]
+        }
+
+        fn cost(&self) -> Option<Cost> {
+            None
+        }
+
+        fn visibility(&self) -> Visibility {
+            Visibility::Traced
+        }
+
+        fn is_progressive(&self) -> bool {
+            false
+        }
+
+        fn prepare<'a>(
+            &self,
+            frame: &Frame<'a>,
+            parameters: &Parameters,
+        ) -> Result<Box<dyn Run + 'a>, Error> {
+            let grey = parameters.choice("tone", &[("dark", 0.1), ("light", 0.5)]);
+            Ok(Box::new(Paint { resolution: frame.resolution, grey }))
+        }
+    }
+
+    impl Run for Paint {
+        fn step(&mut self) -> Result<Progress, Error> {
+            Ok(Progress { done: 1, total: 1 })
+        }
+
+        fn resolve(&mut self) -> Result<RadianceImage, Error> {
+            let [width, height] = self.resolution;
+            let pixels = vec![[self.grey; 3]; (width * height) as usize];
+            Ok(RadianceImage { width, height, pixels })
+        }
+
+        fn counters(&self) -> Vec<(&'static str, u64)> {
+            Vec::new()
+        }
+
+        fn pass_times(&self) -> Vec<PassTime> {
+            Vec::new()
+        }
+    }
+}
+
+const METHODS: Methods = &[&dummy::Dummy, &flat::Flat];
 
 const EXPERIMENT: &str = r#"
 title = "Guesses"
@@ -168,4 +262,79 @@ fn one_module_and_one_entry_are_enough() {
     let arguments = ["manylights", "render", "--scene", "trio", "--method", "vpl", "-o", &picture];
     let unknown = cli::run(arguments.map(Into::into), METHODS).expect_err("no such method");
     assert!(unknown.to_string().contains("unknown method `vpl`"), "{unknown}");
+}
+
+/// Beside methods with a time budget, as the baseline that sets one, and over its other parameters.
+const WITHOUT_AMOUNT: &str = r#"
+title = "Greys"
+question = "Who is grey first?"
+scenes = ["cornell"]
+transport = "indirect-1"
+references = ["traced"]
+errors = [0.9]
+[[methods]]
+id = "flat"
+parameters = { tone = ["dark", "light"] }
+budget = "time"
+[[methods]]
+id = "dummy"
+budget = "time"
+[baseline]
+id = "flat"
+parameters = { tone = "dark" }
+[profiles.quick]
+resolution = [16, 12]
+reference_samples = 32
+repetitions = 2
+seeds = [1, 2]
+times = [1e-3, "baseline"]
+"#;
+
+#[test]
+fn a_method_without_an_amount_runs_once_under_any_budget() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let read = |name: &str| std::fs::read_to_string(Path::new(&path(name))).expect(name);
+    let (file, out, cache) = (path("experiment.toml"), path("out"), path("cache"));
+    std::fs::write(&file, WITHOUT_AMOUNT).expect("can write");
+    run(&["plan", &file, "--profile", "quick"]);
+    run(&["run", &file, "--profile", "quick", "--out", &out, "--cache", &cache]);
+    let lines = read("out/cells.jsonl");
+    let of = |method: &str, part: &str| {
+        let method = format!(r#""method":"{method}""#);
+        lines.lines().filter(|line| line.contains(&method) && line.contains(part)).count()
+    };
+    // Two tones, two seeds, two repetitions, whatever the number of times; of the other method, whose
+    // searched cells may have been corrected, at least as many.
+    assert_eq!((of("flat", ""), of("flat", r#""outcome":"done""#)), (8, 8), "{lines}");
+    assert!(of("dummy", r#""outcome":"done""#) >= 8, "{lines}");
+    assert_eq!((of("flat", r#""amount""#), of("flat", r#""budget":"count""#)), (0, 8), "{lines}");
+    assert_eq!(of("dummy", r#""amount""#), of("dummy", ""), "{lines}");
+
+    let table = read("out/table.md");
+    let rows = table.lines().filter(|line| line.contains("flat tone=")).count();
+    assert!(rows >= 2, "{table}");
+    assert!(
+        table.contains("No amount of work sets the time of flat: it is what it is."),
+        "{table}"
+    );
+    let csv = read("out/table.csv");
+    let columns: Vec<_> = csv.lines().next().expect("a head").split(',').collect();
+    let column = |name: &str| columns.iter().position(|known| *known == name).expect(name);
+    for (line, [searched, amount]) in csv.lines().skip(1).map(|line| {
+        let fields: Vec<_> = line.split(',').collect();
+        (line, [fields[column("time_budget")], fields[column("amount")]])
+    }) {
+        let flat = line.contains(",flat,");
+        assert_eq!([searched.is_empty(), amount.is_empty()], [flat, flat], "{line}");
+    }
+    // The point of its curve has a time and no amount.
+    assert!(read("out/curves.svg").contains("flat") && read("out/report.html").contains("flat"));
+    // All is there already: nothing runs again, and repeating the work asks for no amount.
+    run(&["run", &file, "--profile", "quick", "--out", &out, "--cache", &cache]);
+    assert_eq!(read("out/cells.jsonl").lines().count(), lines.lines().count());
+    run(&["report", &out]);
+    run(&["merge", &out, "--out", &path("merged")]);
+    run(&["list", "methods"]);
+    run(&["list", "methods", "--json"]);
 }

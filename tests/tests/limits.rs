@@ -8,7 +8,7 @@ use manylights_gpu::{Binding, Error, Gpu, GpuFrame, Kernel, Limits, Resource, Un
 use manylights_harness::registry::METHODS;
 use manylights_method::{Frame, Parameters};
 use manylights_scene::{Transport, Visibility};
-use manylights_tests::under_spheres;
+use manylights_tests::{under_spheres, under_triangles};
 
 static GPU: LazyLock<Gpu> = LazyLock::new(|| {
     Gpu::with_limits(None, Limits::Default).expect("an adapter: scripts/test installs one")
@@ -24,11 +24,13 @@ fn every_method_renders_with_default_limits() {
     assert_eq!(opened["max_texture_dimension_2d"], 8192);
     let indirect = |visibility| Transport::Indirect { bounces: 1, visibility };
     let load = |name| manylights_scene::load(name, None).expect("built in");
-    // As many lights as 50 × 50 texels.
+    let direct = Transport::Direct { visibility: Visibility::Ignored };
+    // As many lights as 50 × 50 texels, of two triangles each.
     let stages = [
         (load("cornell"), indirect(Visibility::Traced)),
         (load("trio"), indirect(Visibility::Ignored)),
-        (under_spheres(2500), Transport::Direct { visibility: Visibility::Ignored }),
+        (under_spheres(2500), direct),
+        (under_triangles(5000), direct),
     ];
     let mut rendered = BTreeSet::new();
     for (scene, transport) in &stages {

@@ -43,7 +43,7 @@ impl Method for Aging {
         PathTracer.counters()
     }
 
-    fn cost(&self) -> Cost {
+    fn cost(&self) -> Option<Cost> {
         PathTracer.cost()
     }
 

@@ -24,7 +24,7 @@ use manylights_reflectance::lobes::LobeTable;
 use manylights_reflectance::zonal::ZonalTable;
 use manylights_reflectance::{Damping, TABLES_VERSION, diffuse};
 use manylights_scene::{Lobe, Scene, Transport};
-use manylights_tests::{GPU, Stage, under_spheres};
+use manylights_tests::{GPU, Stage, under_spheres, under_triangles};
 use manylights_virtual_lights::{PLACEMENT_VERSION, RadiusRule, distribute, lit_maps, radii};
 use serde_json::{Value, json};
 
@@ -114,8 +114,11 @@ fn of_method(method: &dyn Method) -> Sketch {
         }
         (None, _) => {
             let direct = Transport::Direct { visibility };
-            let numbers = picture(method, under_spheres(5), direct);
-            let numbers = numbers.unwrap_or_else(|| panic!("{} declines all", method.id()));
+            let scenes = [under_spheres(5), under_triangles(5)];
+            let numbers: Vec<_> =
+                scenes.into_iter().filter_map(|scene| picture(method, scene, direct)).collect();
+            assert!(!numbers.is_empty(), "{} declines all", method.id());
+            let numbers = numbers.concat();
             let area_lights = ("area_lights", AREA_LIGHTS_VERSION);
             Sketch::new([own, area_lights, shaders, tables], &numbers)
         }

@@ -1,6 +1,5 @@
 //! What methods on lights with a surface have in common, but for the estimator.
 
-use bytemuck::Pod;
 use manylights_method::{
     Bake, Baking, Cost, CounterInfo, Dependencies, Direction, Error, Frame, Method, ParameterInfo,
     Parameters, PassTime, Processor, Run,
@@ -8,7 +7,6 @@ use manylights_method::{
 use manylights_scene::{AreaLight, Visibility};
 
 use crate::frame::AreaLightFrame;
-use crate::run::AreaLightRun;
 
 /// The name of the parameter that time and accuracy grow with.
 pub const BANDS: &str = "bands";
@@ -28,24 +26,22 @@ pub trait Estimator: Sync + 'static {
     const PARAMETERS: &'static [ParameterInfo];
     /// The kind of light that it takes, in the plural.
     const TAKES: &'static str;
-    /// A light as its shader reads it: a multiple of 16 bytes.
-    type Light: Pod;
     /// What it bakes.
     type Tables: SceneTables;
 
-    /// The record of a light; `None` of a kind that it does not take.
-    fn light(light: &AreaLight) -> Option<Self::Light>;
+    /// Whether a light is of that kind.
+    fn takes(light: &AreaLight) -> bool;
 
-    /// As [`Bake::prepare`], for a frame whose lights are of its kind.
+    /// As [`Bake::prepare`], for a frame whose lights are of its kind: an
+    /// [`AreaLightRun`](crate::AreaLightRun) over records of all of them.
     ///
     /// # Errors
     /// [`Error::Declined`] with a reason where the scene is not the method's.
     fn start<'a>(
         frame: AreaLightFrame<'a>,
-        lights: Vec<Self::Light>,
         parameters: &Parameters,
         tables: &Self::Tables,
-    ) -> Result<AreaLightRun<'a, Self::Light>, Error>;
+    ) -> Result<Box<dyn Run + 'a>, Error>;
 }
 
 /// What an estimator tabulates, on the processor, of the materials of a scene and of its own formulas.
@@ -89,8 +85,9 @@ impl<M: Estimator> Method for AreaLights<M> {
         &[CounterInfo { name: "lights", help: "that were gathered" }]
     }
 
-    fn cost(&self) -> Cost {
-        Cost { parameter: BANDS, grows: Direction::Up }
+    fn cost(&self) -> Option<Cost> {
+        let has_bands = M::PARAMETERS.iter().any(|info| info.name == BANDS);
+        has_bands.then_some(Cost { parameter: BANDS, grows: Direction::Up })
     }
 
     fn visibility(&self) -> Visibility {
@@ -132,23 +129,23 @@ impl<M: Estimator> Baking for AreaLights<M> {
     }
 
     fn bake(&self, frame: &Frame<'_>, parameters: &Parameters) -> Result<Box<dyn Bake>, Error> {
-        let frame = AreaLightFrame::new(frame)?;
-        records::<M>(&frame)?;
+        let frame = frame_of::<M>(frame)?;
         Ok(Box::new(Baked::<M>(M::Tables::new(&frame, parameters)?)))
     }
 }
 
-/// The lights of a frame, where all are of the estimator's kind.
-fn records<M: Estimator>(frame: &AreaLightFrame<'_>) -> Result<Vec<M::Light>, Error> {
-    let records: Option<Vec<_>> = frame.lights.iter().map(M::light).collect();
-    records.ok_or_else(|| {
-        let others = frame.lights.iter().filter(|light| M::light(light).is_none()).count();
-        let all = frame.lights.len();
-        Error::Declined(format!(
-            "takes lights that are {}; of this scene's {all} lights {others} are others",
-            M::TAKES
-        ))
-    })
+/// A frame whose lights are all of the estimator's kind.
+fn frame_of<'a, M: Estimator>(frame: &Frame<'a>) -> Result<AreaLightFrame<'a>, Error> {
+    let frame = AreaLightFrame::new(frame)?;
+    let others = frame.lights.iter().filter(|light| !M::takes(light)).count();
+    if others == 0 {
+        return Ok(frame);
+    }
+    Err(Error::Declined(format!(
+        "takes lights that are {}; of this scene's {} lights {others} are others",
+        M::TAKES,
+        frame.lights.len()
+    )))
 }
 
 /// The tables of an estimator.
@@ -160,9 +157,7 @@ impl<M: Estimator> Bake for Baked<M> {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        let frame = AreaLightFrame::new(frame)?;
-        let lights = records::<M>(&frame)?;
-        Ok(Box::new(M::start(frame, lights, parameters, &self.0)?))
+        M::start(frame_of::<M>(frame)?, parameters, &self.0)
     }
 
     fn counters(&self) -> Vec<(&'static str, u64)> {

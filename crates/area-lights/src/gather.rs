@@ -9,7 +9,7 @@ use manylights_gpu::{Buffer, Error, Gpu, Kernel, Pass, PassTime, PointPass, Unif
 
 use crate::gather_shader::{GatherShader, LANES};
 
-/// Lights in uniform memory, bound to their kernel.
+/// Records of lights in uniform memory, bound to their kernel.
 pub struct LightBatches {
     counts: Vec<u32>,
     pass: Pass,
@@ -21,8 +21,8 @@ impl LightBatches {
         self.counts.len()
     }
 
-    /// Lights in the first so many batches.
-    pub fn lights(&self, batches: usize) -> u64 {
+    /// Records in the first so many batches.
+    pub fn records(&self, batches: usize) -> u64 {
         self.counts[..batches].iter().map(|&count| u64::from(count)).sum()
     }
 }
@@ -63,18 +63,18 @@ impl AreaGather {
         Ok(Self { gpu: gpu.clone(), pixels, kernel, capacity: shader.capacity, workgroups })
     }
 
-    /// Lights a batch.
+    /// Records a batch.
     pub fn capacity(&self) -> usize {
         self.capacity
     }
 
-    /// The lights in uniform memory.
+    /// The records in uniform memory, each a multiple of 16 bytes.
     ///
     /// # Errors
     /// Where the adapter refuses the buffer.
-    pub fn batches<L: Pod>(&self, lights: &[L]) -> Result<LightBatches, Error> {
+    pub fn batches<R: Pod>(&self, records: &[R]) -> Result<LightBatches, Error> {
         let records =
-            UniformBatches::new(&self.gpu, "lights", lights, self.capacity, self.capacity)?;
+            UniformBatches::new(&self.gpu, "lights", records, self.capacity, self.capacity)?;
         let pass = self.pixels.bind(&self.kernel, &records)?;
         Ok(LightBatches { counts: records.counts().to_vec(), pass })
     }

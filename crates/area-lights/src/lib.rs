@@ -8,7 +8,10 @@ mod area_lights;
 mod frame;
 mod gather;
 mod gather_shader;
+mod irradiance;
+mod narrow;
 mod run;
+mod transformed_cap;
 
 /// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same
 /// estimator gives another picture.
@@ -18,4 +21,7 @@ pub use area_lights::{AreaLights, BANDS, Estimator, SceneTables};
 pub use frame::AreaLightFrame;
 pub use gather::{AreaGather, LightBatches};
 pub use gather_shader::{EstimatorShader, GatherShader};
+pub use irradiance::IRRADIANCE;
+pub use narrow::Narrow;
 pub use run::AreaLightRun;
+pub use transformed_cap::transformed_cap;

@@ -13,35 +13,42 @@ use crate::gather::{AreaGather, LightBatches};
 /// cut. About a second on a slow processor, far below any watchdog on a fast one.
 const PRODUCTS_A_STEP: u64 = 1 << 31;
 
-/// Lights are laid out in the first step, then gathered batch by batch.
-pub struct AreaLightRun<'a, L> {
+/// What the shader reads of the lights is laid out in the first step, then gathered batch by batch.
+pub struct AreaLightRun<'a, R> {
     frame: &'a GpuFrame,
     gather: AreaGather,
-    lights: Vec<L>,
+    records: Vec<R>,
+    lights: u64,
     batches_a_step: usize,
     placed: Option<LightBatches>,
     next: usize,
     times: PassTimes,
 }
 
-impl<'a, L: Pod> AreaLightRun<'a, L> {
-    /// `products` of coefficients are what a pixel and a light take, about.
-    pub fn new(frame: &'a GpuFrame, gather: AreaGather, lights: Vec<L>, products: usize) -> Self {
+impl<'a, R: Pod> AreaLightRun<'a, R> {
+    /// Over the `records` of so many `lights`. `products` of coefficients are what a pixel and a record
+    /// take, about.
+    pub fn new(
+        frame: &'a GpuFrame,
+        gather: AreaGather,
+        (records, lights): (Vec<R>, usize),
+        products: usize,
+    ) -> Self {
         let [width, height] = frame.resolution().map(u64::from);
         let products_a_batch = width * height * (gather.capacity() * products) as u64;
         let batches_a_step = (PRODUCTS_A_STEP / products_a_batch.max(1)).max(1) as usize;
-        let times = PassTimes::default();
-        Self { frame, gather, lights, batches_a_step, placed: None, next: 0, times }
+        let (lights, times) = (lights as u64, PassTimes::default());
+        Self { frame, gather, records, lights, batches_a_step, placed: None, next: 0, times }
     }
 }
 
-impl<L: Pod> Run for AreaLightRun<'_, L> {
+impl<R: Pod> Run for AreaLightRun<'_, R> {
     fn step(&mut self) -> Result<Progress, Error> {
         let start = Instant::now();
         let batches = match self.placed.take() {
             Some(batches) => batches,
             None => {
-                let batches = self.gather.batches(&self.lights)?;
+                let batches = self.gather.batches(&self.records)?;
                 self.times.add(&[], "upload", start);
                 batches
             }
@@ -52,7 +59,7 @@ impl<L: Pod> Run for AreaLightRun<'_, L> {
         // Passes encoded, submitted and waited for.
         self.times.add(&times, "submit", start);
         self.next = end;
-        let [done, total] = [end, batches.count()].map(|end| batches.lights(end));
+        let [done, total] = [end, batches.count()].map(|end| batches.records(end));
         self.placed = Some(batches);
         Ok(Progress { done, total })
     }
@@ -68,9 +75,10 @@ impl<L: Pod> Run for AreaLightRun<'_, L> {
         Ok(RadianceImage { width, height, pixels })
     }
 
+    /// All lights from the last step on: before it, what lights share may be missing of any.
     fn counters(&self) -> Vec<(&'static str, u64)> {
-        let done = self.placed.as_ref().map_or(0, |batches| batches.lights(self.next));
-        vec![("lights", done)]
+        let done = self.placed.as_ref().is_some_and(|batches| self.next == batches.count());
+        vec![("lights", if done { self.lights } else { 0 })]
     }
 
     fn pass_times(&self) -> Vec<PassTime> {

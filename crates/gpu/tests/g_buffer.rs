@@ -60,6 +60,21 @@ fn scenes_of_any_scale() {
     }
 }
 
+/// Of zero length, against the winding, and both in one triangle: what some exporters write.
+#[test]
+fn bad_vertex_normals() {
+    let zero: fn(usize, Vec3) -> Vec3 = |_, _| Vec3::ZERO;
+    let flipped: fn(usize, Vec3) -> Vec3 = |_, normal| -normal;
+    let mixed: fn(usize, Vec3) -> Vec3 = |i, normal| if i % 2 == 0 { -normal } else { normal };
+    for spoil in [zero, flipped, mixed] {
+        let mut scene = manylights_scene::load("trio", None).expect("built in");
+        for (index, vertex) in scene.vertices.iter_mut().enumerate() {
+            vertex.normal = spoil(index, vertex.normal);
+        }
+        agrees_with_rays(&scene, &scene.cameras[0], [160, 120]);
+    }
+}
+
 #[test]
 fn a_ray_that_leaves_the_scene_finds_nothing() {
     let scene = manylights_scene::load("cornell", None).expect("built in");

@@ -1,6 +1,9 @@
 //! The thesis' forms agree with the pole-free one away from the poles.
 
-use manylights_harmonics::thesis::{Polynomials, SphericalGradients, to_cartesian};
+use manylights_harmonics::polygon::solid_angle;
+use manylights_harmonics::thesis::{
+    Polynomials, SphericalGradients, arvo, oosterom_of_units, to_cartesian,
+};
 use manylights_harmonics::{Basis, MAX_BANDS, count};
 use proptest::prelude::*;
 
@@ -51,5 +54,47 @@ proptest! {
         form.gradient(p, [x, y, z]);
         // Monomials of band 9 cancel from about 1e3.
         close(&found, &truth(bands, p), 1e-11)?;
+    }
+}
+
+/// What f32 leaves of a triangle's solid angle: relative errors at so many sizes, of the form in use and of
+/// the two that are printed.
+#[test]
+fn printed_solid_angles_lose_their_digits_in_single_precision() {
+    let at = |distance: f64, turn: f64| {
+        let (sine, cosine) = turn.sin_cos();
+        let turned = |x: f64, y: f64| {
+            let [x, y] = [x * cosine - y * sine, x * sine + y * cosine];
+            [0.5 * distance + x, 0.6 * distance + y, 0.62 * distance + 0.2 * x]
+        };
+        [turned(0.0, 0.0), turned(1.0, 0.1), turned(0.4, 0.9)]
+    };
+    for (distance, least, most) in [
+        (1.0, [0.0, 0.0, 0.0], [1e-6, 1e-6, 1e-4]),
+        (10.0, [0.0, 1e-7, 1e-5], [1e-6, 1e-3, 1e-1]),
+        (100.0, [0.0, 1e-5, 1e-2], [1e-6, 1e-1, 1e2]),
+        (1000.0, [0.0, 1e-3, 1.0], [1e-6, 1e2, 1e4]),
+    ] {
+        let worst = (0..100).fold([0.0_f64; 3], |worst, i| {
+            let single = at(distance, f64::from(i) * 0.0628).map(|corner| corner.map(|c| c as f32));
+            let double = single.map(|corner| corner.map(f64::from));
+            let truth = solid_angle(&double);
+            let found = [
+                solid_angle(&single),
+                oosterom_of_units(single),
+                truth.signum() as f32 * arvo(single),
+            ];
+            let error = found.map(|value| (f64::from(value) / truth - 1.0).abs());
+            [0, 1, 2].map(|form| worst[form].max(error[form]))
+        });
+        println!("{distance}: {worst:?}");
+        for form in 0..3 {
+            assert!((least[form]..most[form]).contains(&worst[form]), "{distance}: {worst:?}");
+        }
+    }
+    let corners = at(2.0, 0.4);
+    let truth = solid_angle(&corners).abs();
+    for value in [oosterom_of_units(corners).abs(), arvo(corners)] {
+        assert!((value - truth).abs() < 1e-13, "{value} for {truth}");
     }
 }

@@ -4,8 +4,13 @@ use crate::common::{FORMS, GPU, SETTINGS};
 use manylights_hvl::{Horizon, LobeKinds, Settings, linked_shader};
 use manylights_reflectance::{Form, ReceiverKinds};
 
-const NONE: ReceiverKinds =
-    ReceiverKinds { specular: false, colored: false, exact_fresnel: false, measured: false };
+const NONE: ReceiverKinds = ReceiverKinds {
+    specular: false,
+    colored: false,
+    exact_fresnel: false,
+    measured: false,
+    narrow: false,
+};
 const LAMBERT: LobeKinds = LobeKinds { receivers: NONE, lights: false };
 const COLORED: ReceiverKinds = ReceiverKinds { specular: true, colored: true, ..NONE };
 const GLOSSY: LobeKinds = LobeKinds { receivers: COLORED, lights: true };

@@ -43,8 +43,8 @@ pub struct Amounts {
 }
 
 impl Amounts {
-    /// Those of a method with these parameters; `None` where the cost parameter is none of them, is no
-    /// number or need not be positive.
+    /// Those of a cost among these parameters; `None` where it is none of them, is no number or need not be
+    /// positive.
     pub fn new(cost: Cost, infos: &[ParameterInfo]) -> Option<Self> {
         let (min, max, whole) = match infos.iter().find(|info| info.name == cost.parameter)?.kind {
             ParameterKind::Count { min, max, .. } => (min as f64, max as f64, true),
@@ -52,6 +52,11 @@ impl Amounts {
             ParameterKind::Choice { .. } => return None,
         };
         (min > 0.0).then_some(Self { cost, min, max, whole })
+    }
+
+    /// The cost parameter.
+    pub fn parameter(self) -> &'static str {
+        self.cost.parameter
     }
 
     /// As [`Cost::work`].

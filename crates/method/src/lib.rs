@@ -110,14 +110,15 @@ pub trait Method: Sync {
     /// What [`Run::counters`] returns, in its order.
     fn counters(&self) -> &'static [CounterInfo];
 
-    /// The parameter that time and accuracy depend on.
-    fn cost(&self) -> Cost;
+    /// The parameter that time and accuracy depend on; `None` where there is none: such a method runs once
+    /// under any budget, and its time is what it is.
+    fn cost(&self) -> Option<Cost>;
 
     /// Of the last segment, where nobody says: what its source computes.
     fn visibility(&self) -> Visibility;
 
     /// Whether the picture after every step estimates the final one, so that one run gives a whole
-    /// curve of error against time. Its cost is then a count, the one that [`Progress`] tells of.
+    /// curve of error against time. It has a cost then, a count, the one that [`Progress`] tells of.
     fn is_progressive(&self) -> bool;
 
     /// Whether chance has a part in the picture: then another [`Frame::seed`] gives another one. Else all

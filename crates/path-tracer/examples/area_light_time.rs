@@ -79,7 +79,7 @@ fn triangle(index: u32, count: u32) -> AreaLight {
     let size = 1.0 / (count as f32).sqrt();
     let [a, b, c] =
         [Vec3::ZERO, Vec3::X, Vec3::Z].map(|offset| place(index, count) + size * offset);
-    AreaLight::Triangle { corners: [a, b, c], radiance: Vec3::ONE }
+    AreaLight::Triangle { corners: [a, b, c], radiance: Vec3::ONE, two_sided: false }
 }
 
 fn floor(material: Material, area_lights: Vec<AreaLight>) -> Scene {

@@ -59,8 +59,8 @@ impl Method for PathTracer {
         ]
     }
 
-    fn cost(&self) -> Cost {
-        Cost { parameter: "samples", grows: Direction::Up }
+    fn cost(&self) -> Option<Cost> {
+        Some(Cost { parameter: "samples", grows: Direction::Up })
     }
 
     fn visibility(&self) -> Visibility {

@@ -49,7 +49,8 @@ fn sphere(center: [f32; 3], radius: f32) -> AreaLight {
 }
 
 fn triangle(corners: [[f32; 3]; 3]) -> AreaLight {
-    AreaLight::Triangle { corners: corners.map(Vec3::from), radiance: RADIANCE }
+    let corners = corners.map(Vec3::from);
+    AreaLight::Triangle { corners, radiance: RADIANCE, two_sided: false }
 }
 
 fn direct(scene: &Scene, visibility: Visibility, samples: u32) -> Result<Reference, Error> {
@@ -368,9 +369,8 @@ fn other_transports_are_declined() {
 /// below it.
 #[test]
 fn no_triangle_lights_itself() {
-    let mut scene = Scene::default();
-    let lamp = Material { emission: RADIANCE, ..lambert() };
-    scene.materials = vec![lamp];
+    let materials = vec![Material { emission: RADIANCE, ..lambert() }];
+    let mut scene = Scene { materials, ..Scene::default() };
     let tilted = Vec3::new(0.6, 0.7, 0.2).normalize();
     let corners = [[-1.1, 0.13, -0.7], [0.2, -0.17, 1.3], [0.9, 0.07, -0.8]];
     scene.vertices.extend(corners.map(|corner| Vertex {
@@ -382,8 +382,11 @@ fn no_triangle_lights_itself() {
     let eye = Vec3::new(0.3, 1.8, 1.0);
     scene.cameras = vec![Camera::look_at("eye", eye, Vec3::ZERO, Vec3::Y, 0.6)];
     assert!(seen(&scene).iter().flatten().count() > 30);
-    for visibility in VISIBILITIES {
-        let picture = direct(&scene, visibility, 32).expect("a picture").image;
-        assert!(picture.pixels.iter().all(|&pixel| pixel == [0.0; 3]), "{visibility}");
+    for two_sided in [false, true] {
+        scene.materials[0].two_sided = two_sided;
+        for visibility in VISIBILITIES {
+            let picture = direct(&scene, visibility, 32).expect("a picture").image;
+            assert!(picture.pixels.iter().all(|&pixel| pixel == [0.0; 3]), "{visibility}");
+        }
     }
 }

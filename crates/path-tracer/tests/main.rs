@@ -6,6 +6,7 @@ mod cache;
 mod determinism;
 mod emitters;
 mod integrating_sphere;
+mod panels;
 mod transports;
 
 #[path = "../../scene/tests/common/tensor.rs"]

@@ -170,9 +170,10 @@ impl Source {
             AreaLight::Sphere { radius, .. } => {
                 4.0 * PI * PI * f64::from(radius) * f64::from(radius) * radiance
             }
-            AreaLight::Triangle { corners, .. } => {
+            AreaLight::Triangle { corners, two_sided, .. } => {
                 let [a, b, c] = corners.map(Vec3::as_dvec3);
-                0.5 * PI * (b - a).cross(c - a).length() * radiance
+                let sides = if two_sided { 2.0 } else { 1.0 };
+                0.5 * sides * PI * (b - a).cross(c - a).length() * radiance
             }
         }
     }

@@ -7,8 +7,10 @@ use manylights_scene::{Scene, SurfacePoint};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EmitterPoint {
     pub(crate) position: Vec3,
-    /// Unit, on the side that emits.
+    /// Unit, on the front.
     pub(crate) normal: Vec3,
+    /// Whether the back emits, too.
+    pub(crate) two_sided: bool,
     /// W·m⁻²·sr⁻¹.
     pub(crate) radiance: Vec3,
     /// Density over area, m⁻².
@@ -21,7 +23,7 @@ pub(crate) struct Emitters {
     triangles: Vec<Emitter>,
     /// Lower ends of the triangles' shares of the power.
     shares: Vec<f32>,
-    /// Sum of area × mean radiance.
+    /// Sum of area × mean radiance over all sides that emit.
     power: f32,
     /// Of a sphere around all of them.
     center: Vec3,
@@ -34,6 +36,7 @@ struct Emitter {
     edges: [Vec3; 2],
     normal: Vec3,
     radiance: Vec3,
+    two_sided: bool,
     /// One over the share of the power.
     scale: f32,
 }
@@ -78,25 +81,29 @@ impl Emitters {
         EmitterPoint {
             position: emitter.corner + s * emitter.edges[0] + t * emitter.edges[1],
             normal: emitter.normal,
+            two_sided: emitter.two_sided,
             radiance: emitter.radiance,
-            density: mean(emitter.radiance) / self.power,
+            density: exitance(emitter.radiance, emitter.two_sided) / self.power,
         }
     }
 
-    /// Density over area with which [`Self::sample`] finds a point that emits, m⁻².
-    pub(crate) fn density(&self, point: &SurfacePoint) -> f32 {
-        mean(point.emission) / self.power
+    /// Density over area with which [`Self::sample`] finds a point that emits, m⁻²; its surface is
+    /// `two_sided` or not.
+    pub(crate) fn density(&self, point: &SurfacePoint, two_sided: bool) -> f32 {
+        exitance(point.emission, two_sided) / self.power
     }
 }
 
 impl Emitter {
     fn new(scene: &Scene, triangle: u32) -> Self {
         let [a, b, c] = scene.corners(triangle);
+        let material = scene.material_of(triangle);
         Self {
             corner: a,
             edges: [b - a, c - a],
             normal: scene.geometric_normal(triangle),
-            radiance: scene.material_of(triangle).emission,
+            radiance: material.emission,
+            two_sided: material.two_sided,
             scale: 1.0,
         }
     }
@@ -105,14 +112,17 @@ impl Emitter {
         [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]]
     }
 
-    /// Area × mean radiance.
+    /// Area × mean radiance of the sides that emit.
     fn power(&self) -> f32 {
-        0.5 * self.edges[0].cross(self.edges[1]).length() * mean(self.radiance)
+        let area = 0.5 * self.edges[0].cross(self.edges[1]).length();
+        area * exitance(self.radiance, self.two_sided)
     }
 }
 
-fn mean(radiance: Vec3) -> f32 {
-    radiance.element_sum() / 3.0
+/// Of all sides that emit, mean of the channels, over π.
+fn exitance(radiance: Vec3, two_sided: bool) -> f32 {
+    let sides = if two_sided { 2.0 } else { 1.0 };
+    sides * radiance.element_sum() / 3.0
 }
 
 /// The area-preserving map of low distortion of Heitz 2019, "A Low-Distortion Map Between Triangle

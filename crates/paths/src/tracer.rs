@@ -110,7 +110,8 @@ impl<'a> Tracer<'a> {
             return 0.0;
         }
         let density = area_density(scatter.density, from, next);
-        density / (density + self.emitters.density(next))
+        let two_sided = self.scene.material_of(next.triangle).two_sided;
+        density / (density + self.emitters.density(next, two_sided))
     }
 
     /// A walk over these sample points.

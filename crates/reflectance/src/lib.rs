@@ -18,6 +18,7 @@ pub mod product_oracle;
 mod product_wgsl;
 mod receiver;
 mod tables;
+pub mod transformed_cosine;
 pub mod zonal;
 
 /// Of the tables' coefficients: raised whenever the same lobe and number of bands give other ones.
@@ -28,7 +29,7 @@ pub use expansion::{Damping, Form};
 pub use lobe_quadrature::{Fixed, LobeQuadrature};
 pub use lobe_shape::LobeShape;
 pub use lobe_wgsl::LOBES;
-pub use materials::{Materials, ReceiverKinds, single};
+pub use materials::{Materials, NARROW, ReceiverKinds, is_narrow, single};
 pub use product::{CosineProduct, Diffuse};
 pub use receiver::Receiver;
 pub use tables::Tables;
@@ -43,10 +44,12 @@ pub const SHAPES: &str = "shapes";
 /// - `reflection`: its products with a cap of light;
 /// - `product`: with any light that is multiplied with the cosine first. It imports what
 ///   [`CosineProduct::modules`] makes;
+/// - `shape_number`: where a lobe stands in [`SHAPES`];
 /// - `arc_sine`: to 1e-7.
-pub const MODULES: [(&str, &str); 4] = [
+pub const MODULES: [(&str, &str); 5] = [
     ("receiver", include_str!("shaders/receiver.wesl")),
     ("reflection", include_str!("shaders/reflection.wesl")),
     ("product", include_str!("shaders/product.wesl")),
+    ("shape_number", include_str!("shaders/shape_number.wesl")),
     ("arc_sine", include_str!("shaders/arc_sine.wesl")),
 ];

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use glam::Vec3;
 use manylights_scene::{Brdf, Lobe, Material, Scene};
 
+use crate::transformed_cosine::{self, Table};
 use crate::{Damping, Form, LobeShape, Tables};
 
 /// The lobes that kernels must know of receivers.
@@ -18,25 +19,47 @@ pub struct ReceiverKinds {
     pub exact_fresnel: bool,
     /// Some reflectance is measured: receivers have a lobe for each channel.
     pub measured: bool,
+    /// Some specular lobe is narrower than [`NARROW`].
+    pub narrow: bool,
 }
+
+/// No affordable number of bands sees a lamp in lobes of a smaller roughness.
+pub const NARROW: f32 = 0.3;
+
+/// Whether a GGX width is that of a smaller roughness: a number that is as it was written must not fail by the
+/// rounding of its square.
+pub fn is_narrow(alpha: f32) -> bool {
+    alpha < NARROW_ALPHA
+}
+
+/// As [`is_narrow`] has it, and the kernels.
+pub(crate) const NARROW_ALPHA: f32 = NARROW * NARROW * (1.0 - 1e-6);
 
 impl ReceiverKinds {
     /// The switches of [`crate::MODULES`], for a linker.
-    pub fn features(self, form: Form) -> [(&'static str, bool); 6] {
+    pub fn features(self, form: Form) -> [(&'static str, bool); 7] {
         [
             ("glossy_receivers", self.specular),
             ("colored", self.colored && !self.measured),
             ("rgb_lobes", self.measured),
             ("zonal", form == Form::Zonal),
             ("mirror", false),
+            ("transformed", false),
             ("exact_fresnel", self.exact_fresnel),
         ]
     }
 
     /// The same for receivers with lobes about the mirror direction, which products of light and cosine meet
     /// ([`crate::CosineProduct`]).
-    pub fn mirror_features(self) -> [(&'static str, bool); 6] {
+    pub fn mirror_features(self) -> [(&'static str, bool); 7] {
         self.features(Form::Full).map(|(name, on)| (name, on || name == "mirror"))
+    }
+
+    /// The same for receivers whose narrow lobes are transformed cosines, where some are
+    /// ([`crate::transformed_cosine`]).
+    pub fn transformed_features(self) -> [(&'static str, bool); 7] {
+        self.features(Form::Full)
+            .map(|(name, on)| (name, on || name == "transformed" && self.narrow))
     }
 
     /// Scalar lobes that a pixel is multiplied with.
@@ -68,6 +91,7 @@ impl Materials {
             colored: !specular.iter().all(grey),
             exact_fresnel: specular.iter().any(exact),
             measured: specular.iter().any(measured),
+            narrow: specular.iter().any(|brdf| is_narrow(brdf.alpha)),
         };
         Self { shapes, kinds }
     }
@@ -116,6 +140,17 @@ impl Materials {
     pub fn mirror_records(&self, tables: &Tables, bands: usize) -> Vec<[f32; 2]> {
         let lobes = |&shape: &LobeShape| single(tables.mirror(shape, bands).values());
         self.shapes.iter().flat_map(lobes).collect()
+    }
+
+    /// The table [`crate::transformed_cosine::TRANSFORMED_LOBES`]: of Schlick's lobes; what stands for others has
+    /// no meaning.
+    pub fn transformed_records(&self) -> Vec<[f32; 4]> {
+        let lobes = |shape: &LobeShape| Table::shared().lobes(shape.record()[0].into());
+        self.shapes
+            .iter()
+            .flat_map(lobes)
+            .flat_map(|lobe| transformed_cosine::record(&lobe))
+            .collect()
     }
 }
 

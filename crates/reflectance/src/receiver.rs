@@ -77,6 +77,25 @@ impl Receiver {
         }
     }
 
+    /// The double product of both lobes with light of these coefficients in [`Self::frame`].
+    ///
+    /// # Panics
+    /// Where the specular lobe is zonal.
+    pub fn product(&self, light: &[f64]) -> DVec3 {
+        let bands = self.diffuse.len();
+        let zonal = |l: usize| {
+            let scale = (4.0 * PI / (2 * l + 1) as f64).sqrt();
+            self.diffuse[l] * scale * light[index(l, 0)]
+        };
+        let diffuse: f64 = (0..bands).map(zonal).sum();
+        let specular = match &self.specular {
+            Specular::None => DVec3::ZERO,
+            Specular::Full(lobe) => full_dot(light, lobe, bands),
+            Specular::Zonal(..) => panic!("a zonal lobe has no coefficients"),
+        };
+        self.lambert * diffuse + specular
+    }
+
     /// The double product of the Lambertian lobe, over [`Self::lambert`], with a cap of these scales about
     /// a direction at this cosine from the normal.
     pub fn diffuse_product(&self, cosine: f64, scales: &[f64]) -> f64 {
@@ -91,9 +110,7 @@ impl Receiver {
                 let local = self.frame.map(|axis| axis.dot(direction));
                 let mut light = vec![0.0; count(scales.len())];
                 rotate(&self.basis, scales, local, &mut light);
-                let orders = (0..scales.len()).flat_map(|l| (0..=l).map(move |m| (l, m)));
-                let term = |(l, m)| light[index(l, m as isize)] * lobe[even_index(l, m)];
-                orders.map(term).sum()
+                full_dot(&light, lobe, scales.len())
             }
             Specular::Zonal(axis, lobe) => DVec3::from_array([0, 1, 2].map(|channel| {
                 let lobe: Vec<_> = lobe.iter().map(|scale| scale[channel]).collect();
@@ -101,6 +118,12 @@ impl Receiver {
             })),
         }
     }
+}
+
+/// Of coefficients and those of m ≥ 0 of a lobe.
+fn full_dot(light: &[f64], lobe: &[DVec3], bands: usize) -> DVec3 {
+    let orders = (0..bands).flat_map(|l| (0..=l).map(move |m| (l, m)));
+    orders.map(|(l, m)| light[index(l, m as isize)] * lobe[even_index(l, m)]).sum()
 }
 
 /// Σ_l c_l f_l P_l(cosine), where f_l holds the (2l + 1)/4π that `evaluate` brings.

@@ -18,12 +18,14 @@ pub enum AreaLight {
         /// W·m⁻²·sr⁻¹.
         radiance: Vec3,
     },
-    /// It shines to its front.
+    /// It shines to its front, or from both sides.
     Triangle {
         /// Metres; counter-clockwise seen from the front.
         corners: [Vec3; 3],
         /// W·m⁻²·sr⁻¹.
         radiance: Vec3,
+        /// Whether its back shines like its front.
+        two_sided: bool,
     },
 }
 
@@ -39,15 +41,20 @@ impl AreaLight {
     pub(crate) fn with_radiance(self, radiance: Vec3) -> Self {
         match self {
             Self::Sphere { center, radius, .. } => Self::Sphere { center, radius, radiance },
-            Self::Triangle { corners, .. } => Self::Triangle { corners, radiance },
+            Self::Triangle { corners, two_sided, .. } => {
+                Self::Triangle { corners, radiance, two_sided }
+            }
         }
     }
 
-    /// Of the side that shines, m².
+    /// Of all sides that shine, m².
     pub fn area(&self) -> f32 {
         match *self {
             Self::Sphere { radius, .. } => 4.0 * PI * radius * radius,
-            Self::Triangle { corners: [a, b, c], .. } => 0.5 * (b - a).cross(c - a).length(),
+            Self::Triangle { corners: [a, b, c], two_sided, .. } => {
+                let sides = if two_sided { 2.0 } else { 1.0 };
+                0.5 * sides * (b - a).cross(c - a).length()
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! What a picture is made from, as a hash.
 
+use glam::Vec3;
 use sha2::{Digest, Sha256};
 
 use crate::{AreaLight, Brdf, Camera, Light, Lobe, Material, Scene};
@@ -68,6 +69,7 @@ fn material_text(material: &Material) -> String {
         specular,
         specular_color,
         emission,
+        two_sided,
         given,
     } = material;
     let mut text = format!(
@@ -77,6 +79,10 @@ fn material_text(material: &Material) -> String {
     if let Some(brdf) = given {
         text += &format!(" {brdf:?}");
     }
+    // Of what is dark both sides are alike.
+    if *two_sided && *emission != Vec3::ZERO {
+        text += " two-sided";
+    }
     text
 }
 
@@ -84,8 +90,17 @@ fn light_text(light: &Light) -> String {
     format!("{light:?}")
 }
 
+/// Of what has one side the text that it had before there were two.
 fn area_light_text(light: &AreaLight) -> String {
-    format!("{light:?}")
+    match light {
+        AreaLight::Sphere { center, radius, radiance } => {
+            format!("Sphere {{ center: {center:?}, radius: {radius:?}, radiance: {radiance:?} }}")
+        }
+        AreaLight::Triangle { corners, radiance, two_sided } => {
+            let sides = if *two_sided { " two-sided" } else { "" };
+            format!("Triangle {{ corners: {corners:?}, radiance: {radiance:?} }}{sides}")
+        }
+    }
 }
 
 fn camera_text(camera: &Camera) -> String {

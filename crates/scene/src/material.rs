@@ -29,8 +29,11 @@ pub struct Material {
     pub specular: f32,
     /// `specularColorFactor`.
     pub specular_color: Vec3,
-    /// Emitted radiance of the front side, W·m⁻²·sr⁻¹.
+    /// Emitted radiance, W·m⁻²·sr⁻¹.
     pub emission: Vec3,
+    /// Whether the emission leaves both sides (glTF's `doubleSided`), else the front alone, as of
+    /// Mitsuba's area lights. All surfaces reflect on both.
+    pub two_sided: bool,
     /// A reflectance given whole ([`crate::presets`]): the factors above but the emission do not
     /// count then.
     pub given: Option<Brdf>,
@@ -49,6 +52,7 @@ impl Material {
             specular: 0.0,
             specular_color: Vec3::ONE,
             emission: Vec3::ZERO,
+            two_sided: false,
             given: None,
         }
     }

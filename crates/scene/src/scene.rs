@@ -123,9 +123,13 @@ impl Scene {
 
     /// All that shines from a surface: [`Self::area_lights`], then the emissive triangles, in order.
     pub fn all_area_lights(&self) -> impl Iterator<Item = AreaLight> + '_ {
-        let of_meshes = self.emissive_triangles().map(|triangle| AreaLight::Triangle {
-            corners: self.corners(triangle),
-            radiance: self.material_of(triangle).emission,
+        let of_meshes = self.emissive_triangles().map(|triangle| {
+            let material = self.material_of(triangle);
+            AreaLight::Triangle {
+                corners: self.corners(triangle),
+                radiance: material.emission,
+                two_sided: material.two_sided,
+            }
         });
         self.area_lights.iter().copied().chain(of_meshes)
     }
@@ -158,8 +162,7 @@ impl Scene {
             triangle,
             material: indices.material,
             brdf: material.brdf(material.base_color_at(&self.textures, uv)),
-            // Emission leaves the front side alone, as Mitsuba's area lights do.
-            emission: if side > 0.0 { material.emission } else { Vec3::ZERO },
+            emission: if side > 0.0 || material.two_sided { material.emission } else { Vec3::ZERO },
         }
     }
 }

@@ -19,7 +19,48 @@ fn wrong_lights_are_refused_with_their_line() {
     };
     let panel = |more: &str| with(PANEL, "triangles", more);
     let origin = "[0, 0, 0]";
+    let polygon = |corners: &str| {
+        format!("[[light]]\nkind = \"polygon\"\ncorners = {corners}\nradiance = [1, 1, 1]")
+    };
+    let triangle = "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]";
+    let many = vec!["[0, 0, 0]"; 1025].join(", ");
     let cases = [
+        // Polygons.
+        ("a polygon has 2 corners", "give it 3 to 1024", polygon("[[0, 0, 0], [1, 0, 0]]")),
+        ("a polygon has 1025 corners", "give it 3 to 1024", polygon(&format!("[{many}]"))),
+        ("a polygon has no area", "order", polygon("[[0, 0, 0], [1, 0, 0], [3, 0, 0]]")),
+        ("a polygon has no area", "order", polygon("[[1, 2, 3], [1, 2, 3], [1, 2, 3]]")),
+        // As much of it turns one way as the other.
+        ("a polygon has no area", "order", polygon("[[0, 0, 0], [1, 1, 0], [1, 0, 0], [0, 1, 0]]")),
+        ("out of its plane", "planar", polygon("[[0, 0, 0], [1, 0, 0], [1, 1, 0.01], [0, 1, 0]]")),
+        ("crosses or touches itself", "order its corners", {
+            polygon("[[0, 0, 0], [3, 0, 0], [3, 2, 0], [1, -1, 0]]")
+        }),
+        // An edge there and back, a corner twice, a corner on an edge.
+        ("crosses or touches itself", "order its corners", {
+            polygon("[[0, 0, 0], [1, 0, 0], [1, 1, 0], [2, 1, 0], [1, 1, 0], [0, 1, 0]]")
+        }),
+        ("crosses or touches itself", "order its corners", {
+            polygon("[[0, 0, 0], [1, 0, 0], [1, 0, 0], [1, 1, 0]]")
+        }),
+        ("crosses or touches itself", "order its corners", {
+            polygon("[[0, 0, 0], [2, 0, 0], [2, 2, 0], [1, 0, 0], [0, 2, 0]]")
+        }),
+        ("corners is not finite", "finite", polygon("[[0, 0, nan], [1, 0, 0], [0, 1, 0]]")),
+        ("corners = 2000000000 is out", "from", polygon("[[0, 0, 2e9], [1, 0, 0], [0, 1, 0]]")),
+        ("radiance is negative", "from 0", polygon(triangle).replace("[1, 1, 1]", "[1, 1, -1]")),
+        ("too bright", "lower", {
+            polygon("[[0, 0, 0], [1e9, 0, 0], [0, 1e9, 0]]").replace("[1, 1, 1]", "[1e30, 1, 1]")
+        }),
+        ("unknown field `two-sided`", "did you mean `two_sided`?", {
+            polygon(triangle) + "\ntwo-sided = true"
+        }),
+        ("missing field `corners`", "correct", polygon(triangle).replace("corners", "#")),
+        (
+            "spheres have no `two_sided`",
+            "remove",
+            with(PANEL, "spheres", "count = 4\ntwo_sided = true"),
+        ),
         // Spheres.
         ("radius = 0 is out of range", "use a number from", sphere(origin, "0", "[1, 1, 1]")),
         ("radius = -1 is out of range", "use a number from", sphere(origin, "-1", "[1, 1, 1]")),

@@ -43,6 +43,10 @@ fn illumination_of_a_point() {
     assert!(at.distance.is_infinite());
 }
 
+fn triangle(corners: [Vec3; 3], radiance: Vec3, two_sided: bool) -> AreaLight {
+    AreaLight::Triangle { corners, radiance, two_sided }
+}
+
 /// A picture depends on every number of a light with a surface, and on which light has it.
 #[test]
 fn the_content_hash_has_every_field_of_area_lights() {
@@ -53,10 +57,11 @@ fn the_content_hash_has_every_field_of_area_lights() {
         AreaLight::Sphere { center: Vec3::Z, radius: 1.0, radiance: Vec3::ONE },
         AreaLight::Sphere { center: Vec3::ZERO, radius: 1.0_f32.next_up(), radiance: Vec3::ONE },
         AreaLight::Sphere { center: Vec3::ZERO, radius: 1.0, radiance: Vec3::X },
-        AreaLight::Triangle { corners, radiance: Vec3::ONE },
-        AreaLight::Triangle { corners, radiance: Vec3::X },
-        AreaLight::Triangle { corners: [Vec3::X, Vec3::Z, Vec3::Y], radiance: Vec3::ONE },
-        AreaLight::Triangle { corners: [Vec3::X, Vec3::Y, 2.0 * Vec3::Z], radiance: Vec3::ONE },
+        triangle(corners, Vec3::ONE, false),
+        triangle(corners, Vec3::ONE, true),
+        triangle(corners, Vec3::X, false),
+        triangle([Vec3::X, Vec3::Z, Vec3::Y], Vec3::ONE, false),
+        triangle([Vec3::X, Vec3::Y, 2.0 * Vec3::Z], Vec3::ONE, false),
     ];
     let hash = |area_lights: &[AreaLight]| {
         let scene = manylights_scene::Scene { area_lights: area_lights.to_vec(), ..scene.clone() };

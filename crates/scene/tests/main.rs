@@ -14,6 +14,7 @@ mod light_sets;
 mod lights;
 mod measured;
 mod parts;
+mod polygons;
 mod scene_files;
 mod texture;
 mod watertight;

@@ -2,13 +2,15 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader};
+use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader, IRRADIANCE, Narrow};
 use manylights_gpu::{Buffer, Error, Gpu, PointBindings, Table};
 use manylights_harmonics::wgsl::{self, Function};
+use manylights_reflectance::transformed_cosine::{self, TRANSFORMED_LOBES};
 use manylights_reflectance::{
     CosineProduct, Damping, Form, LOBES, MODULES, Materials, ReceiverKinds, SHAPES, Tables,
     diffuse, lobe_wgsl,
 };
+use manylights_scene::AreaLight;
 
 use crate::cap_table::{self, COEFFICIENTS, CapTable};
 use crate::{Coefficients, Extent, Product, Settings};
@@ -34,6 +36,16 @@ impl SphereLight {
     pub fn new(center: Vec3, radius: f32, radiance: Vec3) -> Self {
         Self { center, radius, radiance, padding: 0.0 }
     }
+
+    /// `None` of a light that is no sphere.
+    pub fn of(light: &AreaLight) -> Option<Self> {
+        match *light {
+            AreaLight::Sphere { center, radius, radiance } => {
+                Some(Self::new(center, radius, radiance))
+            }
+            AreaLight::Triangle { .. } => None,
+        }
+    }
 }
 
 /// The kernel for receivers of the given lobes.
@@ -43,7 +55,7 @@ impl SphereLight {
 pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<GatherShader, Error> {
     let Settings { bands, coefficients, extent, .. } = *settings;
     let (estimator, modules, kinds_and_product) = match settings.product {
-        Product::Full => full(kinds, bands),
+        Product::Full => full(kinds, settings),
         Product::Cosine(product) => cosine(kinds, product, settings),
     };
     let made: Vec<_> = modules.iter().map(|(name, text)| (*name, &**text)).collect();
@@ -70,13 +82,26 @@ pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<Gather
 /// An estimator, the modules that it imports, and its switches.
 type Estimator = (&'static str, Vec<(&'static str, String)>, Vec<(&'static str, bool)>);
 
-fn full(kinds: ReceiverKinds, bands: usize) -> Estimator {
-    let modules = [
+fn full(kinds: ReceiverKinds, settings: &Settings) -> Estimator {
+    let bands = settings.bands;
+    let mut modules = vec![
         ("sh", wgsl::module(bands, &[Function::CapScalesOf, Function::EvaluateEven])),
         ("diffuse", diffuse::module(bands, Damping::None)),
         ("lobe", lobe_wgsl::module(bands, Form::Full)),
     ];
-    (include_str!("shaders/full.wesl"), modules.into(), kinds.features(Form::Full).into())
+    let features = if transformed(kinds, settings) {
+        modules.push(("transformed_cosine", transformed_cosine::module()));
+        modules.extend(IRRADIANCE.map(|(name, text)| (name, text.to_owned())));
+        kinds.transformed_features()
+    } else {
+        kinds.features(Form::Full)
+    };
+    (include_str!("shaders/full.wesl"), modules, features.into())
+}
+
+/// Whether narrow lobes are transformed cosines.
+fn transformed(kinds: ReceiverKinds, settings: &Settings) -> bool {
+    kinds.narrow && settings.narrow == Narrow::Transformed
 }
 
 fn cosine(kinds: ReceiverKinds, product: CosineProduct, settings: &Settings) -> Estimator {
@@ -93,6 +118,9 @@ fn table_names(kinds: ReceiverKinds, settings: &Settings) -> Vec<Table> {
     let mut names = if kinds.specular { pairs.to_vec() } else { Vec::new() };
     if settings.coefficients == Coefficients::Tabulated {
         names.push(Table { name: COEFFICIENTS, element: "vec4f" });
+    }
+    if transformed(kinds, settings) {
+        names.push(Table { name: TRANSFORMED_LOBES, element: "vec4f" });
     }
     names
 }
@@ -119,6 +147,9 @@ pub(crate) fn tables(
     }
     if settings.coefficients == Coefficients::Tabulated {
         on_gpu.push(gpu.storage("coefficients", &CapTable::new(bands).records())?);
+    }
+    if transformed(materials.kinds(), settings) {
+        on_gpu.push(gpu.storage("transformed lobes", &materials.transformed_records())?);
     }
     Ok(on_gpu)
 }

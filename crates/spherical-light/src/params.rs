@@ -1,4 +1,4 @@
-use manylights_area_lights::BANDS;
+use manylights_area_lights::{BANDS, Narrow};
 use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
 use manylights_reflectance::{CosineProduct, Diffuse};
 
@@ -82,19 +82,7 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
             ],
         },
     },
-    ParameterInfo {
-        name: "narrow",
-        formerly: None,
-        introduced: None,
-        help: "scenes with specular lobes that no affordable number of bands shows",
-        kind: ParameterKind::Choice {
-            default: "decline",
-            words: &[
-                ChoiceWord { word: "decline", help: "those of roughness below 0.3" },
-                ChoiceWord { word: "keep", help: "render them, with the error that they have" },
-            ],
-        },
-    },
+    Narrow::PARAMETER,
 ];
 
 const PRODUCTS: [(&str, Product); 6] = [
@@ -140,15 +128,6 @@ pub enum Extent {
     Disc,
 }
 
-/// What becomes of scenes with narrow lobes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Narrow {
-    /// They are declined.
-    Decline,
-    /// They are rendered.
-    Keep,
-}
-
 /// The parameters by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -185,8 +164,7 @@ impl Settings {
             ),
             extent: parameters
                 .choice("extent", &[("sphere", Extent::Sphere), ("disc", Extent::Disc)]),
-            narrow: parameters
-                .choice("narrow", &[("decline", Narrow::Decline), ("keep", Narrow::Keep)]),
+            narrow: Narrow::new(parameters),
         }
     }
 }

@@ -32,7 +32,7 @@ fn what_is_not_the_methods_is_declined() {
     let point = Light::Point { position: Vec3::Y, intensity };
     declined(&|scene| scene.lights.push(point), DIRECT, "lights with a surface alone");
     let corners = [Vec3::X, Vec3::Y, Vec3::Z];
-    let triangle = AreaLight::Triangle { corners, radiance: Vec3::ONE };
+    let triangle = AreaLight::Triangle { corners, radiance: Vec3::ONE, two_sided: false };
     let words = "takes lights that are spheres; of this scene's 4 lights 1 are others";
     declined(&|scene| scene.area_lights.push(triangle), DIRECT, words);
     assert!(render(&plain, [16, 12], &[], DIRECT).is_ok());

@@ -98,8 +98,8 @@ impl<M: Estimator> Method for VirtualLights<M> {
         &[CounterInfo { name: "lights", help: "lit cells that were gathered" }]
     }
 
-    fn cost(&self) -> Cost {
-        COST
+    fn cost(&self) -> Option<Cost> {
+        Some(COST)
     }
 
     fn visibility(&self) -> Visibility {

@@ -143,14 +143,14 @@ fn legendre<R: Real>(cosine: R, bands: usize) -> [R; MAX_BANDS] {
     values
 }
 
-pub(super) fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
+pub(crate) fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(super) fn cross<R: Real>([a, b, c]: [R; 3], [x, y, z]: [R; 3]) -> [R; 3] {
+pub(crate) fn cross<R: Real>([a, b, c]: [R; 3], [x, y, z]: [R; 3]) -> [R; 3] {
     [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
-pub(super) fn difference<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+pub(crate) fn difference<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }

@@ -17,10 +17,14 @@
 
 mod directions;
 mod edge;
+mod mirror;
 
 use crate::{Real, count, index};
 pub use directions::MAX_BANDS;
-use edge::{Edge, cross, difference, dot};
+use edge::Edge;
+pub(crate) use edge::{cross, difference, dot};
+pub use mirror::{MirrorPlane, transpose};
+pub(crate) use mirror::{boundary, carry};
 
 /// Zonal integrals S_l of a polygon for all directions, or sums of them over polygons.
 #[derive(Clone, Debug)]

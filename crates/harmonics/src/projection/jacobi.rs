@@ -11,7 +11,7 @@ const MOST_SWEEPS: usize = 60;
 /// Turns the vectors of `length` numbers, one after the other, into orthogonal ones by rotations, and
 /// normalises them. Returns their lengths σ and, likewise one after the other, the unit vectors v_k
 /// with (given vectors as columns) A = Σ_k σ_k u_k v_kᵀ.
-pub(super) fn orthogonalise<R: Real>(vectors: &mut [R], length: usize) -> (Vec<R>, Vec<R>) {
+pub(crate) fn orthogonalise<R: Real>(vectors: &mut [R], length: usize) -> (Vec<R>, Vec<R>) {
     let size = vectors.len() / length;
     let mut turned = vec![R::zero(); size * size];
     for k in 0..size {

@@ -1,7 +1,7 @@
 //! Projection of a function that is known by its values: scalar products over samples (thesis 2.2.3)
 //! and least squares (2.2.4, 5.3.1).
 
-mod jacobi;
+pub(crate) mod jacobi;
 mod least_squares;
 
 pub use least_squares::{Filter, LeastSquares};

@@ -12,6 +12,7 @@ mod basis;
 mod cap;
 mod gradient;
 mod lines;
+pub mod polygon;
 mod product;
 mod rotation;
 

@@ -15,11 +15,13 @@ mod cap;
 mod light;
 mod rate;
 mod series;
+mod triangle;
 
 pub use cap::{CLOSED_FORM_BANDS, Cap, cap_sloan, cap_stable, cap_thesis};
 pub use light::{Sighting, light_gradient};
 pub use rate::{cap_rate_sloan, cap_rate_stable, cap_rate_thesis};
 pub use series::{dot, evaluate, from_coefficients};
+pub use triangle::{TriangleForm, TriangleSighting};
 
 use crate::{Basis, Real, convolution};
 

@@ -160,7 +160,7 @@ fn call(name: &str, arguments: Vec<Numbers>) -> Numbers {
         "select" => {
             vec![if arguments[2][0] != 0.0 { arguments[1][0] } else { arguments[0][0] }]
         }
-        "array" | "vec2f" | "vec4f" => arguments.concat(),
+        "array" | "vec2f" | "vec3f" | "vec4f" => arguments.concat(),
         _ => panic!("unknown function {name}"),
     }
 }

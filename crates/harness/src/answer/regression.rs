@@ -170,7 +170,7 @@ mod tests {
         let comparison =
             Comparison { linear: errors, display: errors, linear_floor: 0.0, display_floor: 0.0 };
         let done = Done {
-            amount: 4.0,
+            amount: Some(4.0),
             visibility: None,
             bake_seconds: 0.0,
             bake_pass_seconds: BTreeMap::new(),

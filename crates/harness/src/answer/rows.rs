@@ -64,8 +64,8 @@ pub(crate) struct Medians {
     pub(crate) prepare_seconds: f64,
     /// Of each pass, by the processor's own clock.
     pub(crate) pass_seconds: BTreeMap<String, f64>,
-    /// Value of the method's cost parameter.
-    pub(crate) amount: f64,
+    /// Value of the method's cost parameter, where it has one.
+    pub(crate) amount: Option<f64>,
     /// What the method counted for the first seed.
     pub(crate) counters: BTreeMap<String, u64>,
     /// Key of the cell whose picture stands for the row: the first seed's.
@@ -341,7 +341,7 @@ mod tests {
             bake_counters: BTreeMap::new(),
             prepare_seconds: 0.0,
             pass_seconds: BTreeMap::new(),
-            amount: 1.0,
+            amount: Some(1.0),
             counters,
             key: String::new(),
             errors,

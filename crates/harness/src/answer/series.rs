@@ -30,8 +30,8 @@ pub(crate) struct Series {
 /// A measurement on a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point {
-    /// Value of the method's cost parameter.
-    pub(crate) amount: f64,
+    /// Value of the method's cost parameter, where it has one.
+    pub(crate) amount: Option<f64>,
     /// Median time of the work, with its quartiles.
     pub(crate) seconds: [f64; 3],
     /// Median RMSE of sRGB values over the seeds, with the least and the largest.
@@ -57,7 +57,7 @@ pub(crate) fn of_experiment(experiment: &Experiment, scenes: &[SceneAnswer]) -> 
             }
             let method = variant.method.id();
             let nth = curves_of.entry(method).or_insert(0);
-            let along = Some(variant.method.cost()).filter(|cost| cost.parameter == variant.swept);
+            let along = variant.method.cost().filter(|cost| Some(cost.parameter) == variant.swept);
             let machine = machine.to_owned();
             list.push(Series {
                 name,
@@ -86,11 +86,11 @@ impl Series {
         let mut points: Vec<Point> =
             runs.iter().filter_map(|medians| point(medians, reference)).collect();
         if let Some(cost) = self.along {
-            let known: Vec<f64> = points.iter().map(|point| point.amount).collect();
+            let known: Vec<Option<f64>> = points.iter().map(|point| point.amount).collect();
             let mut between = checkpoints(&runs, cost, reference);
             between.retain(|point| !known.contains(&point.amount));
             points.extend(between);
-            points.sort_by(|a, b| cost.work(a.amount).total_cmp(&cost.work(b.amount)));
+            points.sort_by(|a, b| work(cost, a.amount).total_cmp(&work(cost, b.amount)));
         }
         points
     }
@@ -105,15 +105,20 @@ impl Series {
     }
 }
 
+/// As [`Cost::work`]; of a file that keeps an amount back, none.
+fn work(cost: Cost, amount: Option<f64>) -> f64 {
+    amount.map_or(0.0, |amount| cost.work(amount))
+}
+
 /// The way of the longest run.
 fn checkpoints(runs: &[&Medians], cost: Cost, reference: &str) -> Vec<Point> {
-    let work = |medians: &Medians| cost.work(medians.amount);
+    let work = |medians: &Medians| work(cost, medians.amount);
     let longest = runs.iter().max_by(|a, b| work(a).total_cmp(&work(b)));
     let Some(longest) = longest else { return Vec::new() };
     let point = |checkpoint: &Checkpoint| {
         let rmse = *checkpoint.display_rmse.get(reference)?;
         let seconds = [checkpoint.step_seconds; 3];
-        Some(Point { amount: checkpoint.amount, seconds, rmse: [rmse; 3] })
+        Some(Point { amount: Some(checkpoint.amount), seconds, rmse: [rmse; 3] })
     };
     longest.checkpoints.iter().filter_map(point).collect()
 }
@@ -168,14 +173,14 @@ mod tests {
     #[test]
     fn a_power_law_is_read_off_exactly() {
         // RMSE = t^(−1/2).
-        let at = |t: f64| Point { amount: 1.0, seconds: [t; 3], rmse: [t.powf(-0.5); 3] };
+        let at = |t: f64| Point { amount: Some(1.0), seconds: [t; 3], rmse: [t.powf(-0.5); 3] };
         let points = [at(1.0), at(4.0), at(100.0)];
         let Reached::At(seconds) = time_to_reach(&points, 0.2) else { panic!("reached") };
         assert!((seconds - 25.0).abs() < 1e-9, "{seconds}");
         assert_eq!(time_to_reach(&points, 2.0), Reached::Before(1.0));
         assert_eq!(time_to_reach(&points, 0.05), Reached::Never);
         assert_eq!(time_to_reach(&[], 0.05), Reached::Never);
-        let perfect = Point { amount: 1.0, seconds: [9.0; 3], rmse: [0.0; 3] };
+        let perfect = Point { amount: Some(1.0), seconds: [9.0; 3], rmse: [0.0; 3] };
         assert_eq!(time_to_reach(&[at(1.0), perfect], 0.05), Reached::Before(9.0));
     }
 }

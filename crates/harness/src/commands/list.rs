@@ -65,10 +65,17 @@ fn method_entry(method: &dyn Method) -> Listing {
     for info in method.parameters() {
         text.push_str(&parameter_text(info));
     }
+    let cost = method.cost().map(|cost| cost.parameter);
+    if cost.is_none() {
+        text.push_str(
+            "\n  no parameter sets the amount of work: under any time budget it runs once",
+        );
+    }
     let json = json!({
         "id": method.id(),
         "title": method.title(),
         "processor": processor,
+        "cost": cost,
         "parameters": method.parameters().iter().map(parameter_json).collect::<Vec<_>>(),
         "counters": method.counters().iter().map(counter_json).collect::<Vec<_>>(),
         "bake_counters": method.baking().map(|baking| {

@@ -26,8 +26,8 @@ pub(crate) struct Origin {
     pub(crate) scene: SceneHashes,
     /// Of the frame.
     pub(crate) seed: u64,
-    /// Value of the method's cost parameter.
-    pub(crate) amount: f64,
+    /// Value of the method's cost parameter, where it has one.
+    pub(crate) amount: Option<f64>,
 }
 
 /// A scene as bakes depend on it.

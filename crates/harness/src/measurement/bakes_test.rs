@@ -86,8 +86,8 @@ impl Method for &'static Baker {
         &[]
     }
 
-    fn cost(&self) -> Cost {
-        Cost { parameter: "work", grows: Direction::Up }
+    fn cost(&self) -> Option<Cost> {
+        Some(Cost { parameter: "work", grows: Direction::Up })
     }
 
     fn visibility(&self) -> Visibility {
@@ -212,7 +212,7 @@ fn variant(baker: &'static Baker) -> Variant {
         method: Box::leak(Box::new(baker)),
         place: 0,
         parameters: Parameters::defaults((&baker).parameters()),
-        swept: "work",
+        swept: Some("work"),
         visibility: Visibility::Traced,
         budget: Budget::Count,
         bounded: Bounded::Time,
@@ -290,7 +290,7 @@ fn an_equal_build_time_is_searched_with_bakes_that_are_made_anew() {
     assert_eq!(log[..2], [least, most.clone()]);
     assert!(log.len() > 2 && log.last() == Some(&most), "{log:?}");
     let found: Vec<_> = done(&scenes[0]).map(|cell| (cell.amount, cell.bake_shared)).collect();
-    assert_eq!(found, [(64.0, false), (64.0, true), (64.0, true), (64.0, true)]);
+    assert_eq!(found, [false, true, true, true].map(|shared| (Some(64.0), shared)));
     // Where a frame is what costs, the bake is not made again for each try.
     let budget = (Budget::Seconds(1e9), Bounded::Time);
     let (_, log) = cells(Dependencies { scene: true, ..NOTHING }, budget, &[0]);
@@ -355,7 +355,7 @@ fn baked(baker: &'static Baker, wanted: &[Asked<'_>]) -> Vec<String> {
     for &(scene, camera, seed, amount) in wanted {
         let amount = amount as f64;
         let parameters = Parameters::defaults((&baker).parameters()).with_number("work", amount);
-        let origin = Origin { scene: SceneHashes::new(scene), seed, amount };
+        let origin = Origin { scene: SceneHashes::new(scene), seed, amount: Some(amount) };
         let (variant, baking, parameters) = (0, &baker as &dyn Baking, &parameters);
         let wanted = Wanted { variant, baking, parameters, origin, camera };
         let frame = |camera: usize| Frame {

@@ -91,9 +91,9 @@ impl Outcome {
 /// Times, counts and errors of a picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Done {
-    /// Value of the method's cost parameter: as asked for, or as found for a time budget.
-    #[serde(serialize_with = "number")]
-    pub(crate) amount: f64,
+    /// Value of the method's cost parameter, where it has one: as asked for, or as found for a time budget.
+    #[serde(default, serialize_with = "optional_number", skip_serializing_if = "Option::is_none")]
+    pub(crate) amount: Option<f64>,
     /// Visibility of the last segment that the method computes, where it is a choice.
     #[serde(default)]
     pub(crate) visibility: Option<String>,
@@ -158,6 +158,13 @@ fn number<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> 
     match *value as u64 {
         whole if whole as f64 == *value => serializer.serialize_u64(whole),
         _ => serializer.serialize_f64(*value),
+    }
+}
+
+fn optional_number<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    match value {
+        Some(value) => number(value, serializer),
+        None => serializer.serialize_none(),
     }
 }
 
@@ -227,7 +234,7 @@ mod tests {
             display_rmse: BTreeMap::from([("traced".into(), 0.1)]),
         };
         let done = Done {
-            amount: 0.1 + 0.2,
+            amount: Some(0.1 + 0.2),
             visibility: Some("traced".into()),
             bake_seconds: 0.5,
             bake_pass_seconds: BTreeMap::from([("grid".into(), 0.375)]),

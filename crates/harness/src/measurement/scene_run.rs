@@ -207,7 +207,7 @@ impl SceneRun<'_, '_> {
         let cell = self.session.journal.get(key)?;
         let good = match &cell.outcome {
             Outcome::Done(done) => {
-                self.amounts[turn.variant].is_none_or(|amount| amount == done.amount)
+                self.amounts[turn.variant].is_none_or(|amount| done.amount == Some(amount))
                     && (turn.repetition > 0 || self.image_path(key).with_extension("exr").exists())
             }
             Outcome::Declined { .. } => true,
@@ -303,10 +303,10 @@ impl SceneRun<'_, '_> {
     ) -> Result<Done, manylights_metrics::Error> {
         let Variant { method, parameters, visibility, .. } =
             &self.session.experiment.variants[turn.variant];
-        let asked = || parameters.real(method.cost().parameter);
+        let asked = || Some(parameters.real(method.cost()?.parameter));
         let errors = compare(self.references, &measured.image, turn.seed)?;
         Ok(Done {
-            amount: self.amounts[turn.variant].unwrap_or_else(asked),
+            amount: self.amounts[turn.variant].or_else(asked),
             checkpoints,
             visibility: self.stage.transport.visibility().map(|_| visibility.to_string()),
             bake_shared: self.session.bakes.tell(&measured.bake),

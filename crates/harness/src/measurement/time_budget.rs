@@ -1,6 +1,6 @@
 //! Time budgets: how much work each variant may do on a scene.
 
-use manylights_method::Error;
+use manylights_method::{Amounts, Error};
 use manylights_scene::Scene;
 
 use crate::answer::statistics::median;
@@ -30,13 +30,8 @@ impl Session<'_> {
                 cell.inputs.view() == asked.view() && cell.inputs.label() == asked.label()
             };
             let mut cells = self.replayed.iter().filter(alike);
-            let allowed = |&amount: &f64| variant.amounts().contains(amount);
-            cells.find_map(|cell| match &cell.outcome {
-                Outcome::Done(done) if variant.budget != Budget::Count => {
-                    Some(done.amount).filter(allowed)
-                }
-                _ => None,
-            })
+            let amounts = variant.amounts()?;
+            cells.find_map(|cell| repeatable(cell, amounts))
         };
         self.experiment.variants.iter().map(amount).collect()
     }
@@ -51,31 +46,25 @@ impl SceneRun<'_, '_> {
         inputs: &Inputs,
         provenance: &Provenance,
     ) {
-        if inputs.budget == Budget::Count || self.amounts[variant].is_some() {
-            return;
-        }
+        let allowed = self.session.experiment.variants[variant].amounts();
+        let Some(allowed) = allowed.filter(|_| self.amounts[variant].is_none()) else { return };
         let alike = |cell: &&Cell| {
             let Inputs { seed, repetition, .. } = cell.inputs;
             cell.provenance.same_machine(provenance)
                 && Inputs { seed, repetition, ..inputs.clone() }.identity()
                     == cell.inputs.identity()
         };
-        let allowed = self.session.experiment.variants[variant].amounts();
-        self.amounts[variant] =
-            self.session.journal.cells().rev().filter(alike).find_map(|cell| match &cell.outcome {
-                Outcome::Done(done) => Some(done.amount).filter(|&amount| allowed.contains(amount)),
-                _ => None,
-            });
+        let mut cells = self.session.journal.cells().rev().filter(alike);
+        self.amounts[variant] = cells.find_map(|cell| repeatable(cell, allowed));
     }
 
     /// Searches the amount of a variant with a time budget that has none yet. Where a try or the
     /// baseline that sets the time is declined or fails, so are the variant's cells.
     pub(crate) fn find_amount(&mut self, turn: Turn) {
         let variant = &self.session.experiment.variants[turn.variant];
-        if variant.budget == Budget::Count || self.amounts[turn.variant].is_some() {
-            return;
-        }
-        let found = self.search(turn);
+        let amounts = variant.amounts().filter(|_| self.amounts[turn.variant].is_none());
+        let Some(amounts) = amounts else { return };
+        let found = self.search(turn, amounts);
         if variant.bounded != Bounded::Time {
             // The nearest of the search's tries is no fair measurement of its bake.
             self.session.bakes.forget(turn.variant);
@@ -88,7 +77,7 @@ impl SceneRun<'_, '_> {
         }
     }
 
-    fn search(&mut self, turn: Turn) -> Result<f64, Error> {
+    fn search(&mut self, turn: Turn, amounts: Amounts) -> Result<f64, Error> {
         let experiment = self.session.experiment;
         let variant = &experiment.variants[turn.variant];
         let bounded = variant.bounded;
@@ -107,9 +96,9 @@ impl SceneRun<'_, '_> {
         if target <= 0.0 {
             return Err(Error::Declined("the baseline, which sets the time, bakes nothing".into()));
         }
-        let start = variant.parameters.real(variant.method.cost().parameter);
+        let start = variant.parameters.real(amounts.parameter());
         let measured = |amount| self.time(turn, amount, bounded, target);
-        equal_time::search(target, variant.amounts(), start, measured)
+        equal_time::search(target, amounts, start, measured)
     }
 
     /// One run where the time is far from `target`, the median of some where it is near.
@@ -188,9 +177,17 @@ impl SceneRun<'_, '_> {
         };
         let seconds = median_seconds(variant, bounded, cells)?;
         let amount = self.amounts[variant]?;
-        let amounts = self.session.experiment.variants[variant].amounts();
+        let amounts = self.session.experiment.variants[variant].amounts()?;
         let better = amounts.nearest(amounts.work(amount) * target / seconds);
         (miss(seconds, target) > TOLERANCE && better != amount).then_some(better)
+    }
+}
+
+/// The amount of work of a finished cell, where it is one of those that a time budget may choose.
+fn repeatable(cell: &Cell, allowed: Amounts) -> Option<f64> {
+    match &cell.outcome {
+        Outcome::Done(done) => done.amount.filter(|&amount| allowed.contains(amount)),
+        _ => None,
     }
 }
 

@@ -52,7 +52,9 @@ pub(crate) fn check(cell: &Cell) -> Result<(), String> {
 }
 
 fn check_done(done: &Done, references: &BTreeMap<String, ReferenceInputs>) -> Result<(), String> {
-    within("amount", done.amount, f64::MIN_POSITIVE, MOST_WORK)?;
+    if let Some(amount) = done.amount {
+        within("amount", amount, f64::MIN_POSITIVE, MOST_WORK)?;
+    }
     within("bake_seconds", done.bake_seconds, 0.0, MOST_SECONDS)?;
     within("prepare_seconds", done.prepare_seconds, 0.0, MOST_SECONDS)?;
     within("step_seconds", done.step_seconds, f64::MIN_POSITIVE, MOST_SECONDS)?;
@@ -140,7 +142,7 @@ pub(crate) mod tests {
         let comparison =
             Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
         let done = Done {
-            amount: 32.0,
+            amount: Some(32.0),
             bake_seconds: 0.0,
             bake_pass_seconds: BTreeMap::new(),
             bake_counters: BTreeMap::new(),

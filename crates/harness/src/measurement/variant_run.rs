@@ -51,14 +51,17 @@ impl SceneRun<'_, '_> {
     ) -> Result<T, Error> {
         let Session { experiment, bakes, gpu, .. } = &mut *self.session;
         let Variant { method, parameters, visibility, .. } = &experiment.variants[turn.variant];
-        let set = |amount| parameters.with_number(method.cost().parameter, amount);
-        let parameters = &amount.map_or_else(|| parameters.clone(), set);
+        let cost = method.cost().map(|cost| cost.parameter);
+        let parameters = &match (cost, amount) {
+            (Some(cost), Some(amount)) => parameters.with_number(cost, amount),
+            _ => parameters.clone(),
+        };
         let frame = self.stage.frame(*visibility, turn.seed);
         let Some(baking) = method.baking() else { return call(*method, &frame, parameters, None) };
         let origin = Origin {
             scene: self.hashes.clone(),
             seed: turn.seed,
-            amount: parameters.real(method.cost().parameter),
+            amount: cost.map(|cost| parameters.real(cost)),
         };
         let (variant, camera) = (turn.variant, self.camera);
         let wanted = Wanted { variant, baking, parameters, origin, camera };

@@ -17,7 +17,8 @@
 //! [[methods]]
 //! id = "…"
 //! budget = "time"                    # the harness sets the method's cost parameter so that a frame
-//!                                    # takes `times`; "build_time": its bake; "total_time": both
+//!                                    # takes `times`; "build_time": its bake; "total_time": both;
+//!                                    # a method without a cost runs once and takes what it takes
 //! [baseline]                         # one of those; the first where it is left out
 //! id = "…"
 //! parameters = { samples = 16 }
@@ -51,7 +52,7 @@
 //! ```
 //!
 //! A curve runs along the first parameter, in the method's own order, that has a list of values,
-//! else along the method's cost parameter; the others tell curves apart.
+//! else along the method's cost parameter, if it has one; the others tell curves apart.
 
 use std::collections::BTreeMap;
 use std::path::Path;

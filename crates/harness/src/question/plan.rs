@@ -70,8 +70,8 @@ pub(crate) struct Variant {
     /// starts.
     pub(crate) parameters: Parameters,
     /// The parameter along which a curve runs: the first one declared that the experiment sweeps,
-    /// else the cost parameter.
-    pub(crate) swept: &'static str,
+    /// else the cost parameter, if there is one.
+    pub(crate) swept: Option<&'static str>,
     /// Of the last segment.
     pub(crate) visibility: Visibility,
     /// What it may cost.
@@ -89,23 +89,25 @@ impl Variant {
             Budget::Seconds(seconds) => format!(" {bounded}={} ms", milliseconds(seconds)),
             Budget::Baseline => format!(" {bounded}=baseline"),
         };
-        self.text(|name| name != self.method.cost().parameter) + &budget
+        self.text(|name| !self.is_searched(name)) + &budget
     }
 
     /// As the label, without the swept parameter: variants that share it form one curve.
     pub(crate) fn series(&self) -> String {
-        self.text(|name| name != self.swept && !self.is_searched(name))
+        self.text(|name| Some(name) != self.swept && !self.is_searched(name))
     }
 
-    /// What the cost parameter may be.
-    pub(crate) fn amounts(&self) -> Amounts {
-        let amounts = Amounts::new(self.method.cost(), self.method.parameters());
-        amounts.expect("a test of the registry holds costs to be positive numbers")
+    /// Among what a time budget searches the value of the cost parameter; `None` where the parameters say
+    /// all.
+    pub(crate) fn amounts(&self) -> Option<Amounts> {
+        let cost = self.method.cost().filter(|_| self.budget != Budget::Count)?;
+        let amounts = Amounts::new(cost, self.method.parameters());
+        Some(amounts.expect("a test of the registry holds costs to be positive numbers"))
     }
 
     /// Whether the value of a parameter is found by the harness.
     pub(crate) fn is_searched(&self, name: &str) -> bool {
-        self.budget != Budget::Count && name == self.method.cost().parameter
+        self.amounts().is_some_and(|amounts| amounts.parameter() == name)
     }
 
     /// Values of the parameters that decide a picture: without one that the harness finds, and without those
@@ -142,7 +144,7 @@ impl Variant {
         let default = Parameters::new(self.method.parameters(), []).expect("nothing to refuse");
         let mut words = vec![self.method.id().to_owned()];
         for ((name, value), (_, usual)) in self.parameters.iter().zip(default.iter()) {
-            if wanted(name) && (value != usual || name == self.swept) {
+            if wanted(name) && (value != usual || Some(name) == self.swept) {
                 words.push(format!("{name}={value}"));
             }
         }

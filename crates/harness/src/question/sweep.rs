@@ -75,7 +75,7 @@ impl MethodEntry {
         let is_list = |name: &str| matches!(self.parameters.get(name), Some(toml::Value::Array(_)));
         let names = method.parameters().iter().map(|info| info.name);
         let swept = names.into_iter().find(|name| is_list(name));
-        let swept = swept.unwrap_or(method.cost().parameter);
+        let swept = swept.or(method.cost().map(|cost| cost.parameter));
         let mut variants = Vec::new();
         for visibility in self.visibilities(method.visibility())? {
             for row in &grid {
@@ -123,12 +123,16 @@ impl MethodEntry {
         times: &'b [Budget],
     ) -> Result<&'b [Budget], String> {
         let Some(bounded) = self.budget.bounded() else { return Ok(&[Budget::Count]) };
-        let (id, word, cost) = (&self.id, bounded.word(), method.cost().parameter);
+        let (id, word) = (&self.id, bounded.word());
         let refuse = |reason: String| Err(format!("methods: `{id}` has a {word} budget, {reason}"));
         let builds = || method.baking().is_some_and(|baking| baking.depends_on().amount);
         if times.is_empty() {
             return refuse("but the profile no `times`".into());
         }
+        // Without an amount of work there is nothing to search: one run tells its time.
+        let Some(cost) = method.cost().map(|cost| cost.parameter) else {
+            return Ok(&[Budget::Count]);
+        };
         if self.parameters.contains_key(cost) {
             return refuse(format!("which sets `{cost}`: leave it out"));
         }

@@ -77,8 +77,8 @@ fn what_shows_no_front_above_the_horizon_is_dark() {
 /// Shows its other side.
 fn turned(light: AreaLight) -> AreaLight {
     match light {
-        AreaLight::Triangle { corners: [a, b, c], radiance } => {
-            AreaLight::Triangle { corners: [a, c, b], radiance }
+        AreaLight::Triangle { corners: [a, b, c], radiance, two_sided } => {
+            AreaLight::Triangle { corners: [a, c, b], radiance, two_sided }
         }
         sphere => sphere,
     }

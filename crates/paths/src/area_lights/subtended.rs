@@ -14,7 +14,7 @@ pub(super) enum Subtended {
 }
 
 impl Subtended {
-    /// `None` where the light lies below the horizon of the shading normal, or shows its back. Lights
+    /// `None` where the light lies below the horizon of the shading normal, or shows a side that is dark. Lights
     /// with numbers that are not finite give directions that are none, and thus no finite picture.
     pub(super) fn new(light: &AreaLight, position: Vec3, normal: Vec3) -> Option<Self> {
         let (position, normal) = (position.as_dvec3(), normal.as_dvec3());
@@ -22,9 +22,11 @@ impl Subtended {
             AreaLight::Sphere { center, radius, .. } => {
                 Cap::new(center.as_dvec3() - position, radius.into(), normal).map(Self::Cap)
             }
-            AreaLight::Triangle { corners, .. } => {
+            AreaLight::Triangle { corners, two_sided, .. } => {
                 let corners = corners.map(|corner| corner.as_dvec3() - position);
-                SphericalTriangle::new(corners, normal).map(Self::Triangle)
+                let [a, b, c] = corners;
+                let back = || SphericalTriangle::new([a, c, b], normal).filter(|_| two_sided);
+                SphericalTriangle::new(corners, normal).or_else(back).map(Self::Triangle)
             }
         }
     }

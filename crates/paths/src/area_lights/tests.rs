@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use manylights_scene::AreaLight;
 
 fn triangle(corners: [Vec3; 3]) -> AreaLight {
-    AreaLight::Triangle { corners, radiance: Vec3::ONE }
+    AreaLight::Triangle { corners, radiance: Vec3::ONE, two_sided: false }
 }
 
 fn sphere(center: Vec3, radius: f32) -> AreaLight {

@@ -78,7 +78,9 @@ impl Walk<'_> {
             return Vec3::ZERO;
         }
         let direction = offset / distance2.sqrt();
-        let cos_emitter = -emitter.normal.dot(direction);
+        let towards = -emitter.normal.dot(direction);
+        let side = if emitter.two_sided { towards.signum() } else { 1.0 };
+        let cos_emitter = side * towards;
         if cos_emitter <= 0.0 || !may_arrive(point, direction, Visibility::Traced) {
             return Vec3::ZERO;
         }
@@ -86,7 +88,7 @@ impl Walk<'_> {
         if reflected == Vec3::ZERO {
             return Vec3::ZERO;
         }
-        let target = self.tracer.bvh.shifted(emitter.position, emitter.normal);
+        let target = self.tracer.bvh.shifted(emitter.position, side * emitter.normal);
         if self.occluded(&Ray::between(self.origin(point, direction), target)) {
             return Vec3::ZERO;
         }

@@ -1,6 +1,7 @@
 //! Eight spheres on a floor before a wall, under five spheres of light: seven lacquers of roughness 0.1 … 1 and a
 //! Lambertian one. Their gloss and their colour go from the left to the right and from the front row
-//! to the back.
+//! to the back. Each has a camera of its own, `roughness-0.1` … `roughness-1` and `lambertian`, after that of
+//! all.
 //!
 //! The lights are large and small, near and far, before the receivers, above and behind them: each
 //! receiver sees some of them under its horizon.
@@ -55,18 +56,26 @@ pub(super) fn make() -> Scene {
         let x = 1.1 * (column - 1.75 + 0.5 * row);
         let center = vec3(x, RADIUS, 0.6 - 1.35 * row);
         mesh::icosphere(&mut scene, 4, material, |d| (center + RADIUS * d, d));
+        scene.cameras.push(alone(&scene.materials[material as usize].name, center));
     }
     scene.area_lights.extend(LIGHTS.map(|(center, radius, radiance)| AreaLight::Sphere {
         center,
         radius,
         radiance,
     }));
-    scene.cameras.push(Camera::look_at(
+    let front = Camera::look_at(
         "front",
         vec3(0.0, 2.7, 7.4),
         vec3(0.0, 0.62, -0.1),
         Vec3::Y,
         30_f32.to_radians(),
-    ));
+    );
+    scene.cameras.insert(0, front);
     scene
+}
+
+/// A camera that sees the whole of one receiver and hardly more, over those before it.
+fn alone(material: &str, center: Vec3) -> Camera {
+    let position = center + vec3(0.0, 3.0, 3.0);
+    Camera::look_at(&material.replace(' ', "-"), position, center, Vec3::Y, 13.5_f32.to_radians())
 }

@@ -68,8 +68,6 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
             Vec3::from(material.emissive_factor()) * material.emissive_strength().unwrap_or(1.0)
         }
     };
-    let both_sides = material.double_sided() && emission != Vec3::ZERO;
-    notes.count("double-sided emitters, emit from their front alone", both_sides.into());
     let index = material.index().map_or("default".to_owned(), |index| format!("material-{index}"));
     let made = Material {
         name: material.name().map_or(index, str::to_owned),
@@ -81,6 +79,7 @@ fn convert(material: &gltf_crate::Material, notes: &mut Notes) -> Result<Materia
         specular: specular.as_ref().map_or(1.0, |specular| specular.specular_factor()),
         specular_color: specular.map_or(Vec3::ONE, |s| Vec3::from(s.specular_color_factor())),
         emission,
+        two_sided: material.double_sided(),
         given: None,
     };
     let unit = 0.0..=1.0;

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::checks::{LENGTHS, direction, number, position, radiance, vector};
+use super::polygon;
 use crate::{AreaLight, Light, LoadError, Scene};
 
 /// A light; intensities in W·sr⁻¹, irradiance in W·m⁻², radiance in W·m⁻²·sr⁻¹, lengths in metres,
@@ -10,10 +11,34 @@ use crate::{AreaLight, Light, LoadError, Scene};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "lowercase", tag = "kind")]
 pub(super) enum LightSpec {
-    Point { position: [f32; 3], intensity: [f32; 3] },
-    Spot { position: [f32; 3], target: [f32; 3], intensity: [f32; 3], inner: f32, outer: f32 },
-    Directional { direction: [f32; 3], irradiance: [f32; 3] },
-    Sphere { center: [f32; 3], radius: f32, radiance: [f32; 3] },
+    Point {
+        position: [f32; 3],
+        intensity: [f32; 3],
+    },
+    Spot {
+        position: [f32; 3],
+        target: [f32; 3],
+        intensity: [f32; 3],
+        inner: f32,
+        outer: f32,
+    },
+    Directional {
+        direction: [f32; 3],
+        irradiance: [f32; 3],
+    },
+    Sphere {
+        center: [f32; 3],
+        radius: f32,
+        radiance: [f32; 3],
+    },
+    /// Planar and simple; the corners are counter-clockwise seen from the front.
+    Polygon {
+        corners: Vec<[f32; 3]>,
+        radiance: [f32; 3],
+        /// Whether the back shines, too.
+        #[serde(default)]
+        two_sided: bool,
+    },
 }
 
 impl LightSpec {
@@ -47,6 +72,12 @@ impl LightSpec {
                     radiance: radiance(place, "radiance", sent)?,
                 };
                 return add_area_lights(scene, place, [sphere]);
+            }
+            Self::Polygon { ref corners, radiance: sent, two_sided } => {
+                let radiance = radiance(place, "radiance", sent)?;
+                let triangles = polygon::triangles(corners, place)?.into_iter();
+                let light = |corners| AreaLight::Triangle { corners, radiance, two_sided };
+                return add_area_lights(scene, place, triangles.map(light));
             }
         };
         scene.lights.push(light);

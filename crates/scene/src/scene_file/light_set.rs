@@ -43,6 +43,8 @@ pub(super) struct LightSetSpec {
     power: [f32; 3],
     /// Of the panel: a PNG or JPEG file.
     picture: Option<String>,
+    /// Of triangles: whether their backs shine, too.
+    two_sided: Option<bool>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -95,7 +97,7 @@ impl LightSetSpec {
             Arrangement::Panel => return self.panel(center, scene, document, place),
         };
         let size = number(place, "size", self.needed("size", self.size, place)?, LENGTHS)?;
-        Ok(poses.iter().map(|pose| self.of.light(pose, size)).collect())
+        Ok(poses.iter().map(|pose| self.light(pose, size)).collect())
     }
 
     /// Lights after the panel's picture, or all alike.
@@ -125,7 +127,7 @@ impl LightSetSpec {
         let panel = Panel { center, right, up: normal.cross(right), sides, texels };
         let lights: Vec<_> = match self.of {
             Shape::Spheres => panel.spheres().collect(),
-            Shape::Triangles => panel.triangles().collect(),
+            Shape::Triangles => panel.triangles(self.two_sided()).collect(),
         };
         let Some(name) = &self.picture else { return Ok(lights) };
         let path = document.located(name)?;
@@ -135,6 +137,27 @@ impl LightSetSpec {
             let problem = format!("the picture `{name}` is black");
             LoadError::new(place, problem, "use one that shines somewhere")
         })
+    }
+
+    /// Of the radiance 1 and this radius, metres; a triangle points to the frame's top.
+    fn light(&self, pose: &Pose, size: f32) -> AreaLight {
+        let Pose { center, right, up } = *pose;
+        let half_width = 0.5 * 3_f64.sqrt();
+        let corner = |x: f64, y: f64| (center + f64::from(size) * (x * right + y * up)).as_vec3();
+        match self.of {
+            Shape::Spheres => {
+                AreaLight::Sphere { center: center.as_vec3(), radius: size, radiance: Vec3::ONE }
+            }
+            Shape::Triangles => AreaLight::Triangle {
+                corners: [corner(0.0, 1.0), corner(-half_width, -0.5), corner(half_width, -0.5)],
+                radiance: Vec3::ONE,
+                two_sided: self.two_sided(),
+            },
+        }
+    }
+
+    fn two_sided(&self) -> bool {
+        self.two_sided.unwrap_or_default()
     }
 
     fn radius(&self, place: &str) -> Result<f64, LoadError> {
@@ -177,8 +200,12 @@ impl LightSetSpec {
         Err(LoadError::new(place, problem, remedy))
     }
 
-    /// Refuses keys that the arrangement does not have.
+    /// Refuses keys that the arrangement or the shape does not have.
     fn check_keys(&self, place: &str) -> Result<(), LoadError> {
+        if self.two_sided.is_some() && matches!(self.of, Shape::Spheres) {
+            let problem = "spheres have no `two_sided`";
+            return Err(LoadError::new(place, problem, "remove `two_sided`"));
+        }
         let keys = [
             ("seed", self.seed.is_some()),
             ("radius", self.radius.is_some()),
@@ -195,24 +222,6 @@ impl LightSetSpec {
                 Err(LoadError::new(place, problem, format!("remove `{key}`")))
             }
             None => Ok(()),
-        }
-    }
-}
-
-impl Shape {
-    /// Of the radiance 1 and this radius, metres; a triangle points to the frame's top.
-    fn light(self, pose: &Pose, size: f32) -> AreaLight {
-        let Pose { center, right, up } = *pose;
-        let half_width = 0.5 * 3_f64.sqrt();
-        let corner = |x: f64, y: f64| (center + f64::from(size) * (x * right + y * up)).as_vec3();
-        match self {
-            Self::Spheres => {
-                AreaLight::Sphere { center: center.as_vec3(), radius: size, radiance: Vec3::ONE }
-            }
-            Self::Triangles => AreaLight::Triangle {
-                corners: [corner(0.0, 1.0), corner(-half_width, -0.5), corner(half_width, -0.5)],
-                radiance: Vec3::ONE,
-            },
         }
     }
 }

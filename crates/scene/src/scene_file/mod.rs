@@ -8,6 +8,7 @@ mod light_set;
 mod panel;
 mod part;
 mod picture;
+mod polygon;
 mod random;
 mod spec;
 

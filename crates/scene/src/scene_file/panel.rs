@@ -42,15 +42,19 @@ impl Panel {
     }
 
     /// Two triangles for each texel: that below its falling diagonal, then that above.
-    pub(super) fn triangles(&self) -> impl Iterator<Item = AreaLight> {
-        self.each().flat_map(|Texel { center, right, up }| {
+    pub(super) fn triangles(&self, two_sided: bool) -> impl Iterator<Item = AreaLight> {
+        self.each().flat_map(move |Texel { center, right, up }| {
             let corner = |x: f64, y: f64| (center + 0.5 * (x * right + y * up)).as_vec3();
             let [top_left, bottom_right] = [corner(-1.0, 1.0), corner(1.0, -1.0)];
             let halves = [
                 [top_left, corner(-1.0, -1.0), bottom_right],
                 [bottom_right, corner(1.0, 1.0), top_left],
             ];
-            halves.map(|corners| AreaLight::Triangle { corners, radiance: Vec3::ONE })
+            halves.map(move |corners| AreaLight::Triangle {
+                corners,
+                radiance: Vec3::ONE,
+                two_sided,
+            })
         })
     }
 

@@ -33,7 +33,9 @@ pub(super) struct MaterialSpec {
     ior: Option<f32>,
     specular: Option<f32>,
     emission: Option<[f32; 3]>,
-    /// A reflectance by name, instead of all of the above but the emission.
+    /// Whether the emission leaves both sides.
+    two_sided: Option<bool>,
+    /// A reflectance by name, instead of all of the above but the emission and its sides.
     preset: Option<String>,
     /// Likewise, from a file: `asset:PATH` below the assets folder, or a path relative to this file.
     measured: Option<String>,
@@ -79,6 +81,7 @@ impl MaterialSpec {
         if let Some(emission) = self.emission {
             material.emission = radiance(place, "emission", emission)?;
         }
+        material.two_sided = self.two_sided.unwrap_or(material.two_sided);
         if let Some(name) = &self.preset {
             self.only("preset", place)?;
             let names = PRESETS.iter().map(|preset| preset.name);

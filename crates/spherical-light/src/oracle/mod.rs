@@ -1,13 +1,15 @@
 //! The same estimator in f64 on the CPU.
 
 use glam::DVec3;
+use manylights_area_lights::transformed_cap;
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::zonal::{Cap, cap_stable};
 use manylights_reflectance::product_oracle::ProductReceiver;
-use manylights_reflectance::{Damping, Form, Receiver};
+use manylights_reflectance::transformed_cosine::of_surface;
+use manylights_reflectance::{Damping, Form, Receiver, is_narrow};
 
 use crate::cap_table::CapTable;
-use crate::{Coefficients, Extent, Product, Settings, SphereLight};
+use crate::{Coefficients, Extent, Narrow, Product, Settings, SphereLight};
 
 /// As in the shader: distance, m, below which the point is at the centre, along the normal.
 const COINCIDENT: f64 = 1e-15;
@@ -38,16 +40,24 @@ pub fn radiance(
                 scales
             }
         };
-        (direction, scales, light.radiance.as_dvec3())
+        (direction, cap.sine, scales, light.radiance.as_dvec3())
     };
     let seen = lights.iter().map(seen);
     let (brdf, directions) = (surface.brdf(), [normal, view]);
     match settings.product {
         Product::Full => {
             let receiver = Receiver::new(brdf, directions, bands, Form::Full, Damping::None);
-            let reflected = |(direction, scales, radiance): (DVec3, Vec<f64>, DVec3)| {
+            let transformed = (settings.narrow == Narrow::Transformed && is_narrow(brdf.alpha))
+                .then(|| of_surface(&brdf.into(), normal.dot(view)));
+            let reflected = |(direction, sine, scales, radiance): (DVec3, f64, Vec<f64>, DVec3)| {
                 let diffuse = receiver.diffuse_product(normal.dot(direction), &scales);
-                let specular = receiver.specular_product(direction, &scales);
+                let specular = match &transformed {
+                    Some((cosine, magnitude)) => {
+                        let local = receiver.frame.map(|axis| axis.dot(direction));
+                        *magnitude * transformed_cap(cosine, local.into(), sine)
+                    }
+                    None => receiver.specular_product(direction, &scales),
+                };
                 radiance * (receiver.lambert * diffuse + specular)
             };
             seen.map(reflected).sum()
@@ -55,7 +65,7 @@ pub fn radiance(
         Product::Cosine(product) => {
             let diffuse = settings.diffuse;
             let mut receiver = ProductReceiver::new(brdf, directions, bands, product, diffuse);
-            for (direction, scales, radiance) in seen {
+            for (direction, _, scales, radiance) in seen {
                 receiver.add(direction, &scales, radiance);
             }
             receiver.radiance()

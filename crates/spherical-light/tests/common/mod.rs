@@ -116,12 +116,7 @@ pub(crate) fn scene(lights: u32) -> Scene {
 }
 
 pub(crate) fn spheres(scene: &Scene) -> Vec<SphereLight> {
-    let record = |light: AreaLight| match light {
-        AreaLight::Sphere { center, radius, radiance } => {
-            SphereLight::new(center, radius, radiance)
-        }
-        AreaLight::Triangle { .. } => panic!("no sphere"),
-    };
+    let record = |light| SphereLight::of(&light).expect("a sphere");
     scene.all_area_lights().map(record).collect()
 }
 

@@ -35,11 +35,11 @@ impl Against {
         }
     }
 
-    /// Value with lower and upper end of its bar.
-    fn of(self, point: &Point) -> [f64; 3] {
+    /// Value with lower and upper end of its bar, where a point has one.
+    fn of(self, point: &Point) -> Option<[f64; 3]> {
         match self {
-            Self::Time => point.seconds.map(|seconds| 1e3 * seconds),
-            Self::Amount => [point.amount; 3],
+            Self::Time => Some(point.seconds.map(|seconds| 1e3 * seconds)),
+            Self::Amount => Some([point.amount?; 3]),
         }
     }
 }
@@ -95,7 +95,8 @@ impl Facet {
     fn new(scene: &SceneAnswer, reference: &str, series: &[Series], against: Against) -> Self {
         let curve = |series: &Series| {
             let points = series.points(scene, reference).into_iter();
-            let marks = points.map(|point| Mark { x: against.of(&point), y: point.rmse });
+            let mark = |point: Point| Some(Mark { x: against.of(&point)?, y: point.rmse });
+            let marks = points.filter_map(mark);
             // Zero has no place on a logarithmic axis.
             marks.filter(|mark| mark.x[1] > 0.0 && mark.y[1] > 0.0).collect()
         };

@@ -56,7 +56,8 @@ fn csv_line(
             let comparison = &medians.errors[reference];
             let rank = rank.expect("rows with pictures are ranked");
             fields.extend(["done".into(), rank.place.to_string(), rank.shared.to_string()]);
-            fields.extend([medians.amount.to_string(), medians.runs.to_string()]);
+            let amount = medians.amount.map_or_else(String::new, |amount| amount.to_string());
+            fields.extend([amount, medians.runs.to_string()]);
             let seconds = medians.seconds;
             let bias = medians.bias.get(reference);
             let times = [seconds.median, seconds.lower, seconds.upper];

@@ -4,6 +4,8 @@ mod csv;
 mod latex;
 mod markdown;
 
+use std::collections::BTreeSet;
+
 use crate::answer::rows::{Medians, Rank, Row, RowResult, SceneAnswer};
 use crate::answer::series::{self, Reached};
 use crate::answer::statistics::Quartiles;
@@ -307,6 +309,16 @@ pub(crate) fn foot(experiment: &Experiment) -> String {
             " !: the time misses its budget by more than 5 %, since the method's work comes in steps \
              or the machine's pace changed between search and run.",
         );
+        let methods = experiment.variants.iter().map(|variant| variant.method);
+        let ids: BTreeSet<_> =
+            methods.filter(|method| method.cost().is_none()).map(|method| method.id()).collect();
+        if !ids.is_empty() {
+            let ids: Vec<_> = ids.into_iter().collect();
+            text += &format!(
+                " No amount of work sets the time of {}: it is what it is.",
+                ids.join(", ")
+            );
+        }
     }
     text
 }

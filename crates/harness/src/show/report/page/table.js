@@ -13,7 +13,7 @@ const GROUPS = [
     { id: 'method', title: 'method', value: (row) => row.variant },
   ]],
   ['work', [
-    { id: 'amount', title: 'amount', value: (row) => row.amount, text: (row) => String(row.amount) },
+    { id: 'amount', title: 'amount', value: (row) => row.amount, text: (row) => String(row.amount ?? '') },
     { id: 'counts', title: 'counts', value: (row) => Object.values(row.counters)[0] ?? 0, text: counts, left: true },
   ]],
   ['time, ms', [

@@ -1,0 +1,100 @@
+//! Area lights by linearly transformed cosines (Heitz, Dupuy, Hill, Neubelt 2016; disks: Heitz and Hill 2017).
+//!
+//! Direct light of triangles and spheres, without shadows. A receiver's cosine-weighted lobe is a clamped cosine
+//! whose directions a matrix transforms
+//! ([`transformed_cosine`](manylights_reflectance::transformed_cosine)), so that it reflects of a light what a
+//! Lambertian surface reflects of the transformed light:
+//!
+//! L(x, v) = Σ_j L_j ((f0 A + f90 B)/π · E(M⁻¹ Ω_j) + diffuse/π T(n·v) · E_T(Ω_j))
+//!
+//! with Ω_j what of light j lies above the horizon and E the irradiance in closed form:
+//! - triangles: Lambert's formula, clipped at the horizon and at that of the transform; beyond ten sizes, where
+//!   the sum over edges loses its digits, seven points. One-sided ones shine to their front;
+//! - spheres: the disk of the silhouette, after the transform an ellipse, whose irradiance is exact where it
+//!   crosses no horizon; otherwise the ellipse of the same height and area as what is above the surface's
+//!   horizon, and at the transform's the cap of the same form factor. From inside, the hemisphere
+//!   about the direction to the centre, at the centre about the normal: exact.
+//!
+//! The Lambertian lobe alone is exact; under a specular layer T(n·l) n·l is T(0) times the cosine and a circular
+//! transformed cosine ([`Layered`](manylights_reflectance::transformed_cosine::Layered)) for the rest.
+//!
+//! # What it converges to
+//! To nothing: it has neither bands nor samples. Against quadrature the specular term errs by 1 to 4 % below
+//! roughness 0.4 up to 60° and by tens of per cent at grazing view (`tests/truth.rs`, results/ltc/fit.md).
+//!
+//! # Declined
+//! Measured lobes and the exact Fresnel term, which the fit does not know.
+//!
+//! # Deviations from the papers
+//! - Lights are clipped at the surface's horizon before the transform; the papers clip at the transform's
+//!   alone, so that lights below the surface shine.
+//! - Their edge term has 1/√(1 − (v₁·v₂)²), which is infinite where a point lies between two vertices.
+//! - A horizon cuts a cap in closed form; theirs is a table.
+//! - No texture on lights.
+#![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
+
+mod gather;
+pub mod oracle;
+
+use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
+use manylights_gpu::Buffer;
+use manylights_method::{Error, ParameterInfo, Parameters, Run};
+use manylights_reflectance::Materials;
+use manylights_scene::AreaLight;
+
+pub use gather::{Kind, LightKinds, LightRecord, gather, linked_shader};
+
+/// Multiply-adds of a pixel and a light, about.
+const PRODUCTS: usize = 300;
+
+/// The method is `AreaLights(Ltc)`.
+#[derive(Clone, Copy, Debug)]
+pub struct Ltc;
+
+impl Estimator for Ltc {
+    const ID: &'static str = "ltc";
+    const TITLE: &'static str = "area lights by linearly transformed cosines (Heitz et al. 2016)";
+    const VERSION: u32 = 1;
+    const PARAMETERS: &'static [ParameterInfo] = &[];
+    const TAKES: &'static str = "triangles and spheres";
+    type Tables = LobeTables;
+
+    fn takes(_: &AreaLight) -> bool {
+        true
+    }
+
+    fn start<'a>(
+        frame: AreaLightFrame<'a>,
+        _: &Parameters,
+        tables: &LobeTables,
+    ) -> Result<Box<dyn Run + 'a>, Error> {
+        let AreaLightFrame { scene, eye, on_gpu, pixels, lights } = frame;
+        let records: Vec<_> = lights.iter().map(LightRecord::new).collect();
+        let kinds = Materials::of_scene(scene).kinds();
+        let shader = linked_shader(kinds, LightKinds::of(&records))?;
+        let surfaces = (on_gpu.surfaces(), pixels);
+        let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.0.clone())?;
+        Ok(Box::new(AreaLightRun::new(on_gpu, gather, (records, lights.len()), PRODUCTS)))
+    }
+}
+
+/// The transformed lobes of a scene's materials on the adapter: the bake.
+pub struct LobeTables(Vec<Buffer>);
+
+impl SceneTables for LobeTables {
+    fn new(frame: &AreaLightFrame<'_>, _: &Parameters) -> Result<Self, Error> {
+        let materials = Materials::of_scene(frame.scene);
+        let kinds = materials.kinds();
+        if kinds.measured || kinds.exact_fresnel {
+            return Err(Error::Declined(
+                "knows GGX lobes with Schlick's Fresnel term; this scene has others".into(),
+            ));
+        }
+        Ok(Self(gather::tables(frame.on_gpu.gpu(), &materials)?))
+    }
+
+    fn count(&self) -> u64 {
+        // One or none, of all lobes.
+        u64::from(!self.0.is_empty())
+    }
+}

@@ -1,0 +1,159 @@
+//! The kernel and what it reads.
+
+use glam::Vec3;
+use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader};
+use manylights_gpu::{Buffer, Error, Gpu, PointBindings, SurfaceRecord, Table};
+use manylights_harmonics::wgsl::{self, Function, polygon};
+use manylights_harmonics::zonal::TriangleForm;
+use manylights_reflectance::{
+    Damping, Form, LOBES, MODULES, Materials, ReceiverKinds, SHAPES, Tables, diffuse, lobe_wgsl,
+};
+use manylights_scene::AreaLight;
+
+use crate::exact::ExactRecord;
+use crate::light_record::{CenterRecord, CornerRecord};
+use crate::{Approximation, Settings};
+
+/// Triangles a batch.
+const CAPACITY: usize = 512;
+
+/// What the kernel of an approximation reads of the lights.
+pub(crate) enum Records {
+    Exact(Vec<ExactRecord>),
+    Centers(Vec<CenterRecord>),
+    Corners(Vec<CornerRecord>),
+}
+
+impl Records {
+    /// Lights without area are left out.
+    pub(crate) fn new(lights: &[AreaLight], approximation: Approximation) -> Self {
+        match approximation {
+            Approximation::Exact(edges) => Self::Exact(ExactRecord::all(lights, edges)),
+            Approximation::Sphere(form) if needs_corners(form) => {
+                Self::Corners(lights.iter().filter_map(CornerRecord::new).collect())
+            }
+            Approximation::Sphere(_) => {
+                Self::Centers(lights.iter().filter_map(CenterRecord::new).collect())
+            }
+        }
+    }
+}
+
+/// Whether a form needs the triangle's solid angle.
+fn needs_corners(form: TriangleForm) -> bool {
+    matches!(form, TriangleForm::SolidAngle | TriangleForm::Scaled | TriangleForm::Point)
+}
+
+/// The kernel for receivers of the given lobes.
+///
+/// # Errors
+/// Where the shader does not link.
+pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<GatherShader, Error> {
+    let Settings { bands, approximation, .. } = *settings;
+    let (estimator, form) = match approximation {
+        Approximation::Exact(_) => (include_str!("shaders/exact.wesl"), None),
+        Approximation::Sphere(form) => (include_str!("shaders/sphere.wesl"), Some(form)),
+    };
+    let ones = vec!["1.0"; bands].join(", ");
+    let made = [
+        ("sh", wgsl::module(bands, &[Function::CapScalesOf, Function::EvaluateEven])),
+        ("diffuse", diffuse::module(bands, Damping::None)),
+        ("lobe", lobe_wgsl::module(bands, Form::Full)),
+        (
+            "points",
+            format!("fn point_scales() -> array<f32, {bands}> {{ return array({ones}); }}\n"),
+        ),
+        ("polygon", polygon_module(kinds, bands)),
+    ];
+    let made = made.each_ref().map(|(name, text)| (*name, &**text));
+    let own = [
+        ("triangle", include_str!("shaders/triangle.wesl")),
+        ("solid_angle", include_str!("shaders/solid_angle.wesl")),
+    ];
+    let features = [
+        ("main", form == Some(TriangleForm::Main)),
+        ("solid_angle", form == Some(TriangleForm::SolidAngle)),
+        ("compromise", form == Some(TriangleForm::Compromise)),
+        ("compromise_root", form == Some(TriangleForm::CompromiseRoot)),
+        ("scaled", form == Some(TriangleForm::Scaled)),
+        ("point", form == Some(TriangleForm::Point)),
+        ("corners", form.is_some_and(needs_corners)),
+        // Kernels read the tables of harmonics alone.
+        ("measured", false),
+    ];
+    EstimatorShader {
+        estimator,
+        modules: &[&made[..], &own, &MODULES].concat(),
+        features: &[&features[..], &kinds.features(Form::Full)].concat(),
+        capacity: CAPACITY,
+        bindings: PointBindings { settings: &[], tables: table_names(kinds) },
+    }
+    .link()
+}
+
+/// What exact edges meet the lobes with.
+fn polygon_module(kinds: ReceiverKinds, bands: usize) -> String {
+    if !kinds.specular {
+        let lobe: Vec<_> = diffuse::lobes(bands, Damping::None).iter().map(|[k, _]| *k).collect();
+        let edge = polygon::zonal_edge(&lobe).wgsl;
+        return format!("const LAMBERT = {:?};\n\n{edge}", lobe[0] as f32);
+    }
+    let functions = [
+        polygon::weights(bands),
+        polygon::zonal_weights(bands),
+        polygon::edge(bands, kinds.channels()),
+    ];
+    let (alone, together) = polygon::weight_counts(bands);
+    let texts = functions.map(|function| function.wgsl).join("\n");
+    format!("const ALONE = {alone}u;\nconst TOGETHER = {together}u;\n\n{texts}")
+}
+
+/// Those of [`tables`].
+fn table_names(kinds: ReceiverKinds) -> Vec<Table> {
+    let pairs = [SHAPES, LOBES].map(|name| Table { name, element: "vec2f" });
+    if kinds.specular { pairs.to_vec() } else { Vec::new() }
+}
+
+/// What kernels read, on the adapter, as [`table_names`] has it.
+///
+/// # Errors
+/// Where the adapter refuses.
+pub(crate) fn tables(
+    gpu: &Gpu,
+    materials: &Materials,
+    settings: &Settings,
+    tables: &Tables,
+) -> Result<Vec<Buffer>, Error> {
+    if !materials.kinds().specular {
+        return Ok(Vec::new());
+    }
+    let lobes = materials.lobe_records(tables, settings.bands, Form::Full, Damping::None);
+    let shapes = gpu.storage("shapes", &materials.shape_records())?;
+    Ok(vec![shapes, gpu.storage("lobes", &lobes)?])
+}
+
+/// Radiance of given surfaces under given lights, by the adapter's kernels: what a picture does, for hard
+/// cases that no scene brings about; nothing is declined, and a negative sum stays one.
+///
+/// # Errors
+/// Where the adapter refuses.
+pub fn gather(
+    gpu: &Gpu,
+    surfaces: &[SurfaceRecord],
+    camera: Vec3,
+    lights: &[AreaLight],
+    settings: &Settings,
+) -> Result<Vec<[f32; 3]>, Error> {
+    let materials = Materials::new(surfaces.iter().map(|surface| surface.brdf()));
+    let tables = tables(gpu, &materials, settings, Tables::shared())?;
+    let shader = linked_shader(materials.kinds(), settings)?;
+    let on_gpu = gpu.storage("surfaces", surfaces)?;
+    let gather = AreaGather::new(gpu, (&on_gpu, surfaces.len() as u32), camera, &shader, tables)?;
+    let batches = match Records::new(lights, settings.approximation) {
+        Records::Exact(records) => gather.batches(&records)?,
+        Records::Centers(records) => gather.batches(&records)?,
+        Records::Corners(records) => gather.batches(&records)?,
+    };
+    gather.add(&batches, 0..batches.count())?;
+    gather.radiance()
+}

@@ -1,0 +1,57 @@
+//! The same estimator in f64 on the CPU.
+
+mod polygon;
+
+use glam::DVec3;
+use manylights_gpu::SurfaceRecord;
+use manylights_harmonics::zonal::{TriangleForm, TriangleSighting};
+use manylights_reflectance::{Damping, Form, Receiver};
+use manylights_scene::AreaLight;
+
+use crate::{Approximation, Settings};
+
+/// Radiance from `surface` towards `camera`, summed over `lights`: the formula of the crate's head, in f64,
+/// from the same f32 inputs. Negative where the expansion is.
+pub fn radiance(
+    surface: &SurfaceRecord,
+    camera: DVec3,
+    lights: &[AreaLight],
+    settings: &Settings,
+) -> DVec3 {
+    if surface.triangle == SurfaceRecord::NO_TRIANGLE {
+        return DVec3::ZERO;
+    }
+    let position = surface.position.as_dvec3();
+    let normal = surface.normal.as_dvec3().normalize();
+    let view = (camera - position).normalize();
+    let receiver =
+        Receiver::new(surface.brdf(), [normal, view], settings.bands, Form::Full, Damping::None);
+    let Approximation::Sphere(form) = settings.approximation else {
+        return polygon::reflected(&receiver, position, lights, settings.bands);
+    };
+    let reflected = |light: &AreaLight| {
+        let Some((direction, scales)) = scales(light, [position, normal], form, settings.bands)
+        else {
+            return DVec3::ZERO;
+        };
+        let diffuse = receiver.diffuse_product(normal.dot(direction), &scales);
+        let specular = receiver.specular_product(direction, &scales);
+        light.radiance().as_dvec3() * (receiver.lambert * diffuse + specular)
+    };
+    lights.iter().map(reflected).sum()
+}
+
+/// The direction to a triangle's centre of mass and c_l; `None` without area.
+fn scales(
+    light: &AreaLight,
+    [position, normal]: [DVec3; 2],
+    form: TriangleForm,
+    bands: usize,
+) -> Option<(DVec3, Vec<f64>)> {
+    let AreaLight::Triangle { corners, two_sided, .. } = *light else { return None };
+    let corners = corners.map(|corner| (corner.as_dvec3() - position).to_array());
+    let seen = TriangleSighting::new(corners, two_sided, normal.to_array())?;
+    let mut scales = vec![0.0; bands];
+    seen.scales(form, &mut scales);
+    Some((DVec3::from(seen.direction), scales))
+}

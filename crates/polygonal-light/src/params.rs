@@ -1,0 +1,153 @@
+use manylights_area_lights::{BANDS, Narrow};
+use manylights_harmonics::zonal::TriangleForm;
+use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
+
+use crate::Edges;
+
+pub(crate) const PARAMETERS: &[ParameterInfo] = &[
+    ParameterInfo {
+        name: BANDS,
+        formerly: None,
+        introduced: None,
+        help: "bands of the shaded point's reflectance, l = 0 … bands − 1",
+        kind: ParameterKind::Count { default: 9, min: 1, max: MAX_BANDS as u64 },
+    },
+    ParameterInfo {
+        name: "approximation",
+        formerly: None,
+        introduced: None,
+        help: "of a triangle's coefficients",
+        kind: ParameterKind::Choice {
+            default: "exact",
+            words: &[
+                ChoiceWord {
+                    word: "exact",
+                    help: "none: by integrals over its edges (Wang & Ramamoorthi 2018)",
+                },
+                ChoiceWord {
+                    word: "sphere",
+                    help: "a sphere at its centroid, of the disk of its area (thesis 4.7, 4.8)",
+                },
+                ChoiceWord {
+                    word: "main",
+                    help: "the same times the cosine at the light (thesis 4.9)",
+                },
+                ChoiceWord {
+                    word: "solid-angle",
+                    help: "a cap of the triangle's solid angle (thesis 4.14)",
+                },
+                ChoiceWord {
+                    word: "compromise",
+                    help: "a sphere whose sine is scaled by the cosine at the light (thesis 4.17)",
+                },
+                ChoiceWord {
+                    word: "compromise-root",
+                    help: "by the root of that cosine, which is right for far triangles",
+                },
+                ChoiceWord {
+                    word: "scaled",
+                    help: "the sphere's coefficients, scaled to the triangle's solid angle",
+                },
+                ChoiceWord { word: "point", help: "a point of the triangle's solid angle" },
+            ],
+        },
+    },
+    ParameterInfo {
+        name: "edges",
+        formerly: None,
+        introduced: None,
+        help: "that are integrated, where `approximation` is exact",
+        kind: ParameterKind::Choice {
+            default: "shared",
+            words: &[
+                ChoiceWord { word: "own", help: "those of every triangle" },
+                ChoiceWord {
+                    word: "shared",
+                    help: "those between triangles of one plane once, none between equal ones",
+                },
+            ],
+        },
+    },
+    Narrow::PARAMETER,
+];
+
+const EDGES: [(&str, Edges); 2] = [("own", Edges::Own), ("shared", Edges::Shared)];
+
+/// All but `exact`.
+const SPHERES: [(&str, Approximation); 7] = [
+    ("sphere", Approximation::Sphere(TriangleForm::Sphere)),
+    ("main", Approximation::Sphere(TriangleForm::Main)),
+    ("solid-angle", Approximation::Sphere(TriangleForm::SolidAngle)),
+    ("compromise", Approximation::Sphere(TriangleForm::Compromise)),
+    ("compromise-root", Approximation::Sphere(TriangleForm::CompromiseRoot)),
+    ("scaled", Approximation::Sphere(TriangleForm::Scaled)),
+    ("point", Approximation::Sphere(TriangleForm::Point)),
+];
+
+/// Of a lane's registers: a lobe has bands (bands + 1)/2 coefficients, of colours and measurements two and
+/// three times as many.
+pub const MAX_BANDS: usize = 15;
+
+/// Where the coefficients of a triangle come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Approximation {
+    /// Its edges.
+    Exact(Edges),
+    /// A sphere in its stead.
+    Sphere(TriangleForm),
+}
+
+/// The parameters by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Of light and reflectance, 1 to [`MAX_BANDS`].
+    pub bands: usize,
+    /// Where the coefficients come from.
+    pub approximation: Approximation,
+    /// What becomes of scenes with narrow lobes.
+    pub narrow: Narrow,
+}
+
+/// What `list methods` shows.
+impl Default for Settings {
+    fn default() -> Self {
+        Self::new(&Parameters::defaults(PARAMETERS))
+    }
+}
+
+impl Settings {
+    pub(crate) fn new(parameters: &Parameters) -> Self {
+        let exact = ("exact", Approximation::Exact(parameters.choice("edges", &EDGES)));
+        let approximations = [&[exact][..], &SPHERES].concat();
+        Self {
+            bands: parameters.count(BANDS) as usize,
+            approximation: parameters.choice("approximation", &approximations),
+            narrow: Narrow::new(parameters),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_means_what_it_says() {
+        let set = |name, word| {
+            Settings::new(&Parameters::new(PARAMETERS, [(name, word)]).expect("a word"))
+        };
+        let plain = Settings {
+            bands: 9,
+            approximation: Approximation::Exact(Edges::Shared),
+            narrow: Narrow::Decline,
+        };
+        assert_eq!(Settings::default(), plain);
+        assert_eq!(set("bands", "15").bands, 15);
+        let own = Approximation::Exact(Edges::Own);
+        assert_eq!(set("edges", "own"), Settings { approximation: own, ..plain });
+        for (word, approximation) in SPHERES {
+            assert_eq!(set("approximation", word), Settings { approximation, ..plain });
+        }
+        assert_eq!(set("narrow", "keep"), Settings { narrow: Narrow::Keep, ..plain });
+    }
+}

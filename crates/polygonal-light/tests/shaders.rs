@@ -1,0 +1,42 @@
+//! What the linked WGSL holds.
+
+use crate::common::{GPU, exact, settings};
+use manylights_polygonal_light::{Edges, Settings, TriangleForm, linked_shader};
+use manylights_reflectance::ReceiverKinds;
+
+#[test]
+fn a_shader_holds_what_its_scene_and_form_need() {
+    for form in TriangleForm::ALL {
+        let wgsl = linked_shader(ReceiverKinds::default(), &settings(form)).expect("links").wgsl;
+        for word in ["shapes", "glossy", "schlick", "specular", "smith", "lobe_dot", "evaluate"] {
+            assert!(!wgsl.contains(word), "`{word}` in the Lambertian shader:\n{wgsl}");
+        }
+        use TriangleForm::{Point, Scaled, SolidAngle};
+        let holds = |word: &str| wgsl.contains(word);
+        assert_eq!(holds("arc_tangent"), matches!(form, SolidAngle | Scaled | Point), "{form:?}");
+        assert_eq!(holds("cap_scales_of"), form != Point, "{form:?}");
+        assert_eq!(holds("point_scales"), form == Point, "{form:?}");
+    }
+    let wgsl = linked_shader(ReceiverKinds::default(), &exact(Edges::Own)).expect("links").wgsl;
+    for word in ["shapes", "glossy", "specular", "lobe_dot", "polygon_weights", "evaluate"] {
+        assert!(!wgsl.contains(word), "`{word}` in the exact Lambertian shader:\n{wgsl}");
+    }
+}
+
+#[test]
+fn every_permutation_is_valid() {
+    let specular = ReceiverKinds { specular: true, ..ReceiverKinds::default() };
+    let kinds = [
+        ReceiverKinds::default(),
+        specular,
+        ReceiverKinds { colored: true, ..specular },
+        ReceiverKinds { colored: true, exact_fresnel: true, ..specular },
+        ReceiverKinds { colored: true, measured: true, ..specular },
+    ];
+    for (kinds, bands) in kinds.into_iter().flat_map(|kinds| [1, 2, 9, 15].map(|n| (kinds, n))) {
+        for settings in TriangleForm::ALL.map(settings).into_iter().chain([exact(Edges::Own)]) {
+            let shader = linked_shader(kinds, &Settings { bands, ..settings });
+            shader.expect("links").compile(&GPU).map(|_| ()).expect("valid WGSL");
+        }
+    }
+}
