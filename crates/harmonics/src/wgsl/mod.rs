@@ -12,6 +12,7 @@ mod basis;
 mod cap;
 mod gradient;
 mod lines;
+pub mod order;
 pub mod polygon;
 mod product;
 mod rotation;
@@ -38,8 +39,8 @@ pub enum Function {
     /// `cap_scales_of(sine: f32, cosine: f32) -> array<f32, n>`: the same of both, for caps near the
     /// hemisphere, whose cosine a rounded sine does not tell.
     CapScalesOf,
-    /// `cap_scales_with_rate(sine: f32) -> array<vec2f, n>`: c_l and d·∂c_l/∂d; inside the sphere,
-    /// where c_l is constant, the second is 0.
+    /// `cap_scales_with_rate(sine: f32, cosine: f32) -> array<vec2f, n>`: c_l and ∂c_l/∂cos a = −2π
+    /// P_l(cos a), which times a gradient of the cosine is that of c_l, whatever tells the cap.
     CapScalesWithRate,
     /// `sh_dot(a: array<f32, N>, b: array<f32, N>) -> f32`: the double product (thesis 2.46).
     Dot,
@@ -136,7 +137,7 @@ impl Function {
                 cap::scales_of_both(n),
             ),
             Self::CapScalesWithRate => (
-                format!("cap_scales_with_rate(sine: f32) -> array<vec2f, {n}>"),
+                format!("cap_scales_with_rate(sine: f32, cosine: f32) -> array<vec2f, {n}>"),
                 cap::scales_with_rate(n),
             ),
             Self::Dot => (
