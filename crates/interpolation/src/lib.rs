@@ -1,10 +1,17 @@
 //! Coefficients of spherical harmonics at the vertices of a regular grid, interpolated between them (thesis
 //! 3.3.4; Wu et al. 2020; Annen et al. 2004).
+//!
+//! On the adapter they lie in a buffer of `vec4f`, in the world's frame, all n² of each vertex:
+//! - with gradients at ((vertex n² + i) 3 + channel), the value and its three derivatives by a cell, ∂x h_x, ∂y
+//!   h_y, ∂z h_z;
+//! - without at vertex n² + i, red, green, blue and 0.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 #![forbid(unsafe_code)]
 
 mod grid;
+mod projection;
 mod scheme;
 
 pub use grid::{Grid, Place};
+pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};
 pub use scheme::{CORNERS, Scheme, Weights};
