@@ -63,6 +63,7 @@ pub mod cap_table;
 mod gather;
 pub mod oracle;
 mod params;
+mod projection;
 
 use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
 use manylights_gpu::Buffer;
@@ -75,6 +76,7 @@ pub use gather::{SphereLight, gather, linked_shader};
 pub use manylights_area_lights::Narrow;
 pub use manylights_reflectance::{CosineProduct, Diffuse};
 pub use params::{Coefficients, Extent, MAX_BANDS, Product, Settings};
+pub use projection::linked_projection;
 
 /// The method is `AreaLights(SphericalLights)`.
 #[derive(Clone, Copy, Debug)]

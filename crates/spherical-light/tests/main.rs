@@ -8,6 +8,7 @@ mod gather;
 mod hard_cases;
 mod narrow;
 mod products;
+mod projection;
 mod scenes;
 mod shaders;
 mod tables;

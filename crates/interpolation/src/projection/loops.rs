@@ -1,7 +1,7 @@
 //! The loops over lights and coefficients, straight-line for a number of bands.
 
-use manylights_harmonics::wgsl::{Function, module, order};
 use manylights_harmonics::count;
+use manylights_harmonics::wgsl::{Function, module, order};
 
 /// How the loops over lights and coefficients nest (thesis 3.3.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,11 +29,10 @@ pub(super) fn modules(bands: usize, gradients: bool, loops: Loops) -> [(&'static
         Loops::Reverse => reverse(bands, gradients),
     };
     let [basis, own] = texts;
-    [("basis", basis), ("loops", format!("{HEAD}\n{own}"))]
+    [("basis", basis), ("loops", format!("{HEAD}{own}"))]
 }
 
-const HEAD: &str = "import package::basis::*;
-import package::sighting::contribution;
+const HEAD: &str = "import package::sighting::contribution;
 import package::source::sight;
 import package::store::store;
 import package::vertices::batch;
@@ -46,12 +45,12 @@ fn forward(bands: usize, gradients: bool) -> [String; 2] {
     };
     let all: Vec<_> = (0..count(bands)).collect();
     let own = summation("project", "order: u32, ", name, &all, gradients);
-    [module(bands, &[function]), own]
+    [module(bands, &[function]), format!("import package::basis::{name};\n\n{own}")]
 }
 
 fn reverse(bands: usize, gradients: bool) -> [String; 2] {
     let mut basis = module(bands, &[]);
-    let (mut cases, mut own) = (String::new(), String::new());
+    let (mut imports, mut cases, mut own) = (String::new(), String::new(), String::new());
     for m in 0..bands {
         let (function, suffix) = match gradients {
             true => (order::with_gradient(bands, m), "_with_gradient"),
@@ -59,6 +58,7 @@ fn reverse(bands: usize, gradients: bool) -> [String; 2] {
         };
         basis += &format!("\n{}", function.wgsl);
         let (project, evaluate) = (format!("project_{m}"), format!("sh_order_{m}{suffix}"));
+        imports += &format!("import package::basis::{evaluate};\n");
         own += &summation(&project, "", &evaluate, &order::indices(bands, m), gradients);
         let arguments = "vertex, position, count";
         cases += &match m + 1 == bands {
@@ -68,7 +68,7 @@ fn reverse(bands: usize, gradients: bool) -> [String; 2] {
     }
     let signature = "project(order: u32, vertex: u32, position: vec3f, count: u32)";
     own += &format!("fn {signature} {{\n    switch order {{\n{cases}    }}\n}}\n");
-    [basis, own]
+    [basis, format!("{imports}\n{own}")]
 }
 
 /// A function that sums the coefficients of these places over a batch. `evaluate` returns their harmonics in
@@ -86,8 +86,7 @@ fn summation(
         let l = band(*i);
         format!("        sums[{k}] += contribution(s, s.scales[{l}], y[{k}]);\n")
     };
-    let keep =
-        |(k, i): (usize, &usize)| format!("    store(vertex, {i}u, sums[{k}]);\n");
+    let keep = |(k, i): (usize, &usize)| format!("    store(vertex, {i}u, sums[{k}]);\n");
     let adds: String = indices.iter().enumerate().map(add).collect();
     let stores: String = indices.iter().enumerate().map(keep).collect();
     format!(

@@ -56,8 +56,7 @@ pub fn project<R: Pod>(
     let positions: Vec<[f32; 4]> = grid.positions().map(|[x, y, z]| [x, y, z, 1.0]).collect();
     let positions = gpu.storage("vertices", &positions)?;
     let told = gpu.uniform("grid", &Told { spacing: grid.spacing, vertices })?;
-    let batches =
-        UniformBatches::new(gpu, "lights", records, shader.capacity, shader.capacity)?;
+    let batches = UniformBatches::new(gpu, "lights", records, shader.capacity, shader.capacity)?;
     let resources = [
         Resource::Buffer(&told),
         Resource::Buffer(&positions),
