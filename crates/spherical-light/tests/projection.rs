@@ -88,14 +88,16 @@ fn errors(settings: &Settings, lights: &[SphereLight], loops: Loops) -> [f64; 2]
 #[test]
 fn both_loops_are_the_sums_of_f64() {
     let lights = lights(600);
-    for bands in [1, 2, 5, 9] {
-        for extent in [Extent::Sphere, Extent::Disc] {
-            for loops in [Loops::Reverse, Loops::Forward] { let start = std::time::Instant::now();
-                let settings = Settings { bands, extent, ..SETTINGS };
-                let [both, values] = errors(&settings, &lights, loops);
-                println!("{bands} bands, {extent:?}, {loops:?}: {both:.1e}, {values:.1e} {:?}", start.elapsed());
-                assert!(both < 1e-5 && values < 1e-5, "{bands}, {extent:?}, {loops:?}");
-            }
-        }
+    let few = [1, 2, 5].into_iter().flat_map(|bands| {
+        let extents = [Extent::Sphere, Extent::Disc].into_iter();
+        let both = |extent| [(bands, extent, Loops::Forward), (bands, extent, Loops::Reverse)];
+        extents.flat_map(both)
+    });
+    // Of so many bands software adapters compile for many seconds.
+    for (bands, extent, loops) in few.chain([(9, Extent::Sphere, Loops::Reverse)]) {
+        let settings = Settings { bands, extent, ..SETTINGS };
+        let [both, values] = errors(&settings, &lights, loops);
+        println!("{bands} bands, {extent:?}, {loops:?}: {both:.1e}, {values:.1e}");
+        assert!(both < 1e-5 && values < 1e-5, "{bands}, {extent:?}, {loops:?}");
     }
 }

@@ -81,18 +81,18 @@ fn summation(
     gradients: bool,
 ) -> String {
     let element = if gradients { "mat3x4f" } else { "vec3f" };
-    let length = indices.len();
+    let sums: String =
+        (0..indices.len()).map(|k| format!("    var sum_{k}: {element};\n")).collect();
     let add = |(k, i): (usize, &usize)| {
         let l = band(*i);
-        format!("        sums[{k}] += contribution(s, s.scales[{l}], y[{k}]);\n")
+        format!("        sum_{k} += contribution(s, s.scales[{l}], y[{k}]);\n")
     };
-    let keep = |(k, i): (usize, &usize)| format!("    store(vertex, {i}u, sums[{k}]);\n");
+    let keep = |(k, i): (usize, &usize)| format!("    store(vertex, {i}u, sum_{k});\n");
     let adds: String = indices.iter().enumerate().map(add).collect();
     let stores: String = indices.iter().enumerate().map(keep).collect();
     format!(
         "fn {name}({parameter}vertex: u32, position: vec3f, count: u32) {{
-    var sums: array<{element}, {length}>;
-    for (var i = 0u; i < count; i++) {{
+{sums}    for (var i = 0u; i < count; i++) {{
         let s = sight(batch.lights[i], position);
         let y = {evaluate}(s.direction);
 {adds}    }}
