@@ -3,13 +3,19 @@
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 #![forbid(unsafe_code)]
 
-mod bindings;
 mod grid;
 pub mod oracle;
 mod reading;
 mod reading_wgsl;
 mod scheme;
+mod settings;
+mod shader;
+mod sorted;
+mod view;
 
 pub use grid::{Grid, Place};
-pub use reading::{Pixels, Reading, Settings, plain_shader};
+pub use reading::Reading;
 pub use scheme::{CORNERS, Scheme, Weights};
+pub use settings::{Order, Settings};
+pub use shader::Shader;
+pub use view::Pixels;

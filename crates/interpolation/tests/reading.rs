@@ -15,7 +15,7 @@ fn plain<'a>(
 ) -> impl Fn(&Pixels<'_>) -> u32 + 'a {
     move |pixels| {
         let on_gpu = GPU.storage("coefficients", coefficients).expect("it fits");
-        let reading = Reading::new(&GPU, settings, &on_gpu, pixels).expect("a kernel");
+        let mut reading = Reading::new(&GPU, settings, &on_gpu, pixels).expect("a kernel");
         reading.add().expect("a run");
         reading.outside().expect("a count")
     }

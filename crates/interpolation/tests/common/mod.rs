@@ -6,7 +6,7 @@ use crate::tensor;
 use glam::{Quat, Vec3};
 use manylights_gpu::{Gpu, SurfaceRecord};
 use manylights_harmonics::count;
-use manylights_interpolation::{Grid, Pixels, Scheme, Settings};
+use manylights_interpolation::{Grid, Order, Pixels, Scheme, Settings};
 use manylights_reflectance::{Damping, Form, Materials, Tables};
 use manylights_scene::{Brdf, Lobe, Measured};
 
@@ -56,7 +56,7 @@ pub(crate) fn grid() -> Grid<f32> {
 
 pub(crate) fn settings(scheme: Scheme, bands: usize, brdfs: &[Brdf]) -> Settings {
     let kinds = Materials::new(brdfs.iter().copied()).kinds();
-    Settings { grid: grid(), scheme, bands, kinds }
+    Settings { grid: grid(), scheme, bands, kinds, order: Order::Plain }
 }
 
 /// As light has them: the higher the band, the less is in it.
