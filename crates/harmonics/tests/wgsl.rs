@@ -9,9 +9,10 @@ use manylights_harmonics::clamped_cosine::{Folded, Local};
 use manylights_harmonics::product::Product;
 use manylights_harmonics::projection::fibonacci;
 use manylights_harmonics::quadrature::gauss_legendre;
+use manylights_harmonics::rotation::Zxzxz;
 use manylights_harmonics::wgsl::{CUT, Function, module, order};
 use manylights_harmonics::zonal::{Cap, cap_rate_stable, cap_stable};
-use manylights_harmonics::{Basis, MAX_BANDS, count, even_index, index};
+use manylights_harmonics::{Basis, MAX_BANDS, count, even_count, even_index, index};
 use proptest::prelude::*;
 
 /// The poles, the axes, both with one small component, and some directions between.
@@ -296,6 +297,53 @@ proptest! {
             prop_assert!(difference(&run(&function.generate(bands).wgsl, &arguments), &truth) <= 1e-5);
         }
     }
+}
+
+/// What is even in y in a frame, seen from outside: turned by the inverse rotation.
+#[test]
+fn even_functions_spread_over_all_coefficients() {
+    for bands in [1, 2, 3, 5, 9, 15] {
+        let wgsl = Function::SpreadEven.generate(bands).wgsl;
+        for normal in directions() {
+            let normal = normalised(normal.map(f64::from));
+            let axis = [0, 1, 2].map(|i| f64::from(u8::from(i == least(normal))));
+            let tangent = normalised(cross(axis, normal));
+            let bitangent = cross(normal, tangent);
+            let from_frame = [0, 1, 2].map(|i| [tangent[i], bitangent[i], normal[i]]);
+            let values: Numbers =
+                (0..even_count(bands)).map(|i| ((7 * i + 3) % 11) as f32 / 5.0 - 1.0).collect();
+            let mut truth = vec![0.0; count(bands)];
+            for l in 0..bands {
+                for m in 0..=l {
+                    truth[index(l, m as isize)] = f64::from(values[even_index(l, m)]);
+                }
+            }
+            Zxzxz::new(bands).apply(from_frame, &mut truth, &mut vec![0.0; count(bands)]);
+            let axes = ["tangent", "bitangent", "normal"].into_iter();
+            let names: Vec<_> = axes
+                .zip([tangent, bitangent, normal])
+                .flat_map(|(name, axis)| {
+                    let components = ["x", "y", "z"].into_iter().zip(axis);
+                    components.map(move |(c, value)| (format!("{name}.{c}"), vec![value as f32]))
+                })
+                .collect();
+            let mut arguments = vec![("a", values)];
+            arguments.extend(names.iter().map(|(name, value)| (&**name, value.clone())));
+            let error = difference(&run(&wgsl, &arguments), &truth);
+            assert!(error <= 1e-5, "{bands} bands, {normal:?}: {error:e}");
+        }
+    }
+}
+
+fn least(v: [f64; 3]) -> usize {
+    (0..3).fold(0, |least, i| if v[i].abs() < v[least].abs() { i } else { least })
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        a[j] * b[k] - a[k] * b[j]
+    })
 }
 
 /// Largest |value − truth|; both are below 10.

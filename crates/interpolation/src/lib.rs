@@ -9,9 +9,20 @@
 #![forbid(unsafe_code)]
 
 mod grid;
+pub mod oracle;
 mod projection;
+mod reading;
+mod reading_wgsl;
 mod scheme;
+mod settings;
+mod shader;
+mod sorted;
+mod view;
 
 pub use grid::{Grid, Place};
 pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};
+pub use reading::Reading;
 pub use scheme::{CORNERS, Scheme, Weights};
+pub use settings::{Order, Settings};
+pub use shader::Shader;
+pub use view::Pixels;

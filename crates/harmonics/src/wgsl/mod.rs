@@ -75,6 +75,9 @@ pub enum Function {
     /// array<vec3f, H>`: what a function is in the frame of these axes (x, y, z), its half even in y, by
     /// [`crate::rotation::Zxzxz`].
     TurnEven,
+    /// `sh_spread_even(tangent: vec3f, bitangent: vec3f, normal: vec3f, a: array<f32, H>) -> array<f32, N>`:
+    /// what a function that is even in y in the frame of these axes is outside of it: the adjoint of `TurnEven`.
+    SpreadEven,
 }
 
 /// Bands of the clamped cosine that hold most of it (thesis 4.1.3, l₂ < 3).
@@ -92,7 +95,7 @@ pub struct Generated {
 
 impl Function {
     /// All of them.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Evaluate,
         Self::EvaluateEven,
         Self::EvaluateWithGradient,
@@ -111,6 +114,7 @@ impl Function {
         Self::ClampedCosine,
         Self::ClampedCosineEven,
         Self::TurnEven,
+        Self::SpreadEven,
     ];
 
     /// The declaration for `bands` ≥ 1 bands.
@@ -209,6 +213,13 @@ impl Function {
                      a: array<vec3f, {all}>) -> array<vec3f, {half}>"
                 ),
                 rotation::turn_even(n),
+            ),
+            Self::SpreadEven => (
+                format!(
+                    "sh_spread_even(tangent: vec3f, bitangent: vec3f, normal: vec3f, \
+                     a: array<f32, {half}>) -> array<f32, {all}>"
+                ),
+                rotation::spread_even(n),
             ),
         };
         body.function(&signature)
