@@ -8,11 +8,15 @@
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 #![forbid(unsafe_code)]
 
+mod extent;
 mod grid;
+mod near;
 pub mod oracle;
+mod parameters;
 mod projection;
 mod reading;
 mod reading_wgsl;
+mod run;
 mod scheme;
 mod settings;
 mod shader;
@@ -20,8 +24,11 @@ mod sorted;
 mod view;
 
 pub use grid::{Grid, Place};
+pub use near::Reach;
+pub use parameters::{Bounds, Interpolation};
 pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};
 pub use reading::Reading;
+pub use run::{COUNTERS, GridPart, InterpolatedRun};
 pub use scheme::{CORNERS, Scheme, Weights};
 pub use settings::{Order, Settings};
 pub use shader::Shader;

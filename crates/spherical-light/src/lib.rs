@@ -61,16 +61,24 @@
 
 pub mod cap_table;
 mod gather;
+mod light_grid;
 pub mod oracle;
 mod params;
 mod projection;
 
-use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
+use manylights_area_lights::{
+    AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS, SceneTables,
+};
 use manylights_gpu::Buffer;
 use manylights_harmonics::even_count;
-use manylights_method::{Error, ParameterInfo, Parameters, Run};
+use manylights_interpolation::{InterpolatedRun, Interpolation};
+use manylights_method::{
+    CounterInfo, Dependencies, Error, ParameterInfo, Parameters, PassTime, Processor, Run,
+};
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::AreaLight;
+
+use light_grid::LightGrid;
 
 pub use gather::{SphereLight, gather, linked_shader};
 pub use manylights_area_lights::Narrow;
@@ -89,6 +97,8 @@ impl Estimator for SphericalLights {
     const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     const TAKES: &'static str = "spheres";
+    const COUNTERS: &'static [CounterInfo] =
+        &[LIGHTS, manylights_interpolation::COUNTERS[0], manylights_interpolation::COUNTERS[1]];
     type Tables = LobeTables;
 
     fn takes(light: &AreaLight) -> bool {
@@ -107,33 +117,83 @@ impl Estimator for SphericalLights {
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
         let products = even_count(settings.bands) * kinds.channels();
-        let records: Vec<_> = lights.iter().filter_map(SphereLight::of).collect();
-        Ok(Box::new(AreaLightRun::new(on_gpu, gather, (records, lights.len()), products)))
+        let grid = match &tables.grid {
+            Some(grid) => {
+                Some(grid.part(&gather, (surfaces, eye), kinds, &tables.on_gpu, lights.len())?)
+            }
+            None => None,
+        };
+        let records = match &tables.grid {
+            Some(grid) => grid.near.clone(),
+            None => lights.iter().filter_map(SphereLight::of).collect(),
+        };
+        let count = records.len();
+        let gather = AreaLightRun::new(on_gpu, gather, (records, count), products);
+        Ok(Box::new(InterpolatedRun::new(Box::new(gather), grid)))
     }
 }
 
-/// The lobes of a scene's materials, and the coefficients of caps where they are tabulated, on the adapter:
-/// the bake.
+/// The lobes of a scene's materials, and the coefficients of caps where they are tabulated, on the adapter, and
+/// what a grid holds of the lights: the bake.
 pub struct LobeTables {
     on_gpu: Vec<Buffer>,
     count: u64,
+    grid: Option<LightGrid>,
 }
 
 impl SceneTables for LobeTables {
     fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
         let settings = Settings::new(parameters);
+        let interpolation = Interpolation::new(parameters);
+        if interpolation.is_some() {
+            refuse_interpolated(&settings)?;
+        }
         refuse_long_products(&settings)?;
         refuse_transformed_products(&settings)?;
         settings.narrow.check(frame.scene)?;
         let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
         let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
         let of_caps = u64::from(settings.coefficients == Coefficients::Tabulated);
-        Ok(Self { on_gpu, count: receivers.count() + of_caps })
+        let grid = interpolation.map(|how| LightGrid::new(frame, &settings, how)).transpose()?;
+        Ok(Self { on_gpu, count: receivers.count() + of_caps, grid })
+    }
+
+    fn depends_on(parameters: &Parameters) -> Dependencies {
+        let tables = Dependencies { scene: true, amount: true, ..Dependencies::default() };
+        Interpolation::new(parameters).map_or(tables, |how| how.depends_on())
+    }
+
+    fn processor(parameters: &Parameters) -> Processor {
+        Interpolation::new(parameters).map_or(Processor::Cpu, |_| Processor::Gpu)
+    }
+
+    fn grow(&mut self, frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<(), Error> {
+        match &mut self.grid {
+            Some(grid) => grid.project(frame, &Settings::new(parameters)),
+            None => Ok(()),
+        }
+    }
+
+    fn pass_times(&self) -> Vec<PassTime> {
+        self.grid.as_ref().map_or(Vec::new(), LightGrid::pass_times)
     }
 
     fn count(&self) -> u64 {
         self.count
     }
+}
+
+/// What a grid holds are analytic coefficients, which the whole lobe meets.
+fn refuse_interpolated(settings: &Settings) -> Result<(), Error> {
+    let set = match settings {
+        Settings { product: Product::Cosine(_), .. } => "product=full",
+        Settings { coefficients: Coefficients::Tabulated, .. } => "coefficients=analytic",
+        Settings { narrow: Narrow::Transformed, .. } => "narrow=decline, or keep",
+        _ => return Ok(()),
+    };
+    Err(Error::Declined(format!(
+        "interpolates analytic coefficients against whole lobes: --set {set}"
+    )))
 }
 
 /// Light by light alone a lobe is met as it is.

@@ -1,4 +1,5 @@
 use manylights_area_lights::{BANDS, Narrow};
+use manylights_interpolation::Interpolation;
 use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
 use manylights_reflectance::{CosineProduct, Diffuse};
 
@@ -83,6 +84,11 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         },
     },
     Narrow::PARAMETER,
+    Interpolation::SCHEME,
+    Interpolation::GRID,
+    Interpolation::BOUNDS,
+    Interpolation::LOOPS,
+    Interpolation::READING,
 ];
 
 const PRODUCTS: [(&str, Product); 6] = [
