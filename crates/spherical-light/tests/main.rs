@@ -6,6 +6,7 @@ mod diffuse;
 mod floors;
 mod gather;
 mod hard_cases;
+mod interpolated;
 mod narrow;
 mod products;
 mod projection;

@@ -1,10 +1,8 @@
 //! Coefficients at the vertices of a grid against f64.
 
 use glam::Vec3;
-use manylights_harmonics::zonal::{Sighting, cap_rate_stable, cap_stable, light_gradient};
-use manylights_harmonics::{Basis, count};
 use manylights_interpolation::{Grid, Loops, project};
-use manylights_spherical_light::{Extent, Settings, SphereLight, linked_projection};
+use manylights_spherical_light::{Extent, Settings, SphereLight, linked_projection, oracle};
 
 use crate::common::{GPU, SETTINGS, spiral};
 
@@ -22,49 +20,9 @@ fn lights(count: u32) -> Vec<SphereLight> {
     (0..count).map(light).collect()
 }
 
-/// Values of all channels and their derivatives by a cell, of each coefficient of each vertex.
-fn truth(grid: Grid<f32>, lights: &[SphereLight], settings: &Settings) -> Vec<[[f64; 4]; 3]> {
-    let bands = settings.bands;
-    let basis = Basis::<f64>::new(bands);
-    let at = |position: [f32; 3]| {
-        let mut sums = vec![[[0.0; 4]; 3]; count(bands)];
-        for light in lights {
-            let center = light.center.to_array();
-            let offset = [0, 1, 2].map(|i| f64::from(center[i]) - f64::from(position[i]));
-            let radius = f64::from(light.radius);
-            let seen = match settings.extent {
-                Extent::Sphere => Sighting::of_sphere(offset, radius),
-                Extent::Disc => Sighting::of_disk(offset, radius),
-            }
-            .expect("a distance");
-            let (mut scales, mut rates) = (vec![0.0; bands], vec![0.0; bands]);
-            cap_stable(seen.cap, &mut scales);
-            cap_rate_stable(seen.cap, seen.cosine_rate, &mut rates);
-            let mut values = vec![0.0; count(bands)];
-            let mut axes = [0; 3].map(|_| values.clone());
-            let slices = axes.each_mut().map(|axis| &mut axis[..]);
-            basis.evaluate_with_gradient(seen.direction, &mut values, slices);
-            let slices = axes.each_mut().map(|axis| &mut axis[..]);
-            light_gradient(&seen, &scales, &rates, &values, slices);
-            for (i, sum) in sums.iter_mut().enumerate() {
-                let value = scales[i.isqrt()] * values[i];
-                let by_cell = [0, 1, 2].map(|k| axes[k][i] * f64::from(grid.spacing[k]));
-                for (channel, radiance) in light.radiance.to_array().into_iter().enumerate() {
-                    let all = [value, by_cell[0], by_cell[1], by_cell[2]];
-                    for (sum, value) in sum[channel].iter_mut().zip(all) {
-                        *sum += f64::from(radiance) * value;
-                    }
-                }
-            }
-        }
-        sums
-    };
-    grid.positions().flat_map(at).collect()
-}
-
 /// The largest error beside the largest value or derivative, of all with gradients and of values alone.
 fn errors(settings: &Settings, lights: &[SphereLight], loops: Loops) -> [f64; 2] {
-    let truth = truth(grid(), lights, settings);
+    let truth = oracle::coefficients(&grid(), lights, settings);
     let largest = truth.as_flattened().as_flattened().iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     [true, false].map(|gradients| {
         let shader = linked_projection(settings, gradients, loops).expect("links");
@@ -90,7 +48,7 @@ fn both_loops_are_the_sums_of_f64() {
     let lights = lights(600);
     let few = [1, 2, 5].into_iter().flat_map(|bands| {
         let extents = [Extent::Sphere, Extent::Disc].into_iter();
-        let both = |extent| [(bands, extent, Loops::Forward), (bands, extent, Loops::Reverse)];
+        let both = move |extent| [(bands, extent, Loops::Forward), (bands, extent, Loops::Reverse)];
         extents.flat_map(both)
     });
     // Of so many bands software adapters compile for many seconds.
