@@ -114,6 +114,7 @@ mod light_record;
 mod operations;
 pub mod oracle;
 mod params;
+mod projection;
 
 use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
 use manylights_gpu::Buffer;
@@ -128,6 +129,7 @@ pub use manylights_area_lights::Narrow;
 pub use manylights_harmonics::zonal::TriangleForm;
 pub use operations::{ExactOperations, exact_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};
+pub use projection::project_exactly;
 
 use gather::Records;
 

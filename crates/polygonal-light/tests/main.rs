@@ -8,6 +8,7 @@ mod forms_hard_cases;
 mod gather;
 mod hard_cases;
 mod operations;
+mod projection;
 mod scenes;
 mod shaders;
 mod shared;

@@ -1,12 +1,15 @@
 //! The same estimator in f64 on the CPU.
 
 mod polygon;
+mod vertices;
 
 use glam::DVec3;
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::zonal::{TriangleForm, TriangleSighting};
 use manylights_reflectance::{Damping, Form, Receiver};
 use manylights_scene::AreaLight;
+
+pub use vertices::coefficients;
 
 use crate::{Approximation, Settings};
 
