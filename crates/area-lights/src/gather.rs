@@ -88,11 +88,6 @@ impl AreaGather {
         self.gpu.run(&range.map(dispatch).collect::<Vec<_>>())
     }
 
-    /// The adapter.
-    pub fn gpu(&self) -> &Gpu {
-        &self.gpu
-    }
-
     /// Where the sums are, a `vec4f` a surface: what else reaches the surfaces may be added.
     pub fn results(&self) -> &Buffer {
         self.pixels.results_buffer()

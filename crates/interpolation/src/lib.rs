@@ -10,6 +10,7 @@
 
 mod extent;
 mod grid;
+mod light_grid;
 mod near;
 pub mod oracle;
 mod parameters;
@@ -24,6 +25,7 @@ mod sorted;
 mod view;
 
 pub use grid::{Grid, Place};
+pub use light_grid::{LightGrid, Lit};
 pub use near::Reach;
 pub use parameters::{Bounds, Interpolation};
 pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};

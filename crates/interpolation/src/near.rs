@@ -1,6 +1,7 @@
 //! Lights that a grid must not hold.
 
 use glam::DVec3;
+use manylights_scene::AreaLight;
 
 use crate::Grid;
 
@@ -23,8 +24,17 @@ impl Reach {
         Self { least: origin - CELLS * spacing, most: origin + (cells + CELLS) * spacing }
     }
 
-    /// Whether a sphere reaches into it.
-    pub fn meets_sphere(&self, center: DVec3, radius: f64) -> bool {
-        center.clamp(self.least, self.most).distance(center) <= radius
+    /// Whether a light reaches into it; of a triangle its box decides.
+    pub fn meets(&self, light: &AreaLight) -> bool {
+        match *light {
+            AreaLight::Sphere { center, radius, .. } => {
+                let center = center.as_dvec3();
+                center.clamp(self.least, self.most).distance(center) <= f64::from(radius)
+            }
+            AreaLight::Triangle { corners: [a, b, c], .. } => {
+                let (least, most) = (a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3());
+                least.cmple(self.most).all() && most.cmpge(self.least).all()
+            }
+        }
     }
 }

@@ -116,10 +116,15 @@ pub mod oracle;
 mod params;
 mod projection;
 
-use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
+use manylights_area_lights::{
+    AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS, SceneTables,
+};
 use manylights_gpu::Buffer;
 use manylights_harmonics::even_count;
-use manylights_method::{Error, ParameterInfo, Parameters, Run};
+use manylights_interpolation::{InterpolatedRun, Interpolation, LightGrid, Lit, Pixels};
+use manylights_method::{
+    CounterInfo, Dependencies, Error, ParameterInfo, Parameters, PassTime, Processor, Run,
+};
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::AreaLight;
 
@@ -129,7 +134,7 @@ pub use manylights_area_lights::Narrow;
 pub use manylights_harmonics::zonal::TriangleForm;
 pub use operations::{ExactOperations, exact_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};
-pub use projection::project_exactly;
+pub use projection::project;
 
 use gather::Records;
 
@@ -144,6 +149,8 @@ impl Estimator for PolygonalLights {
     const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     const TAKES: &'static str = "triangles";
+    const COUNTERS: &'static [CounterInfo] =
+        &[LIGHTS, manylights_interpolation::COUNTERS[0], manylights_interpolation::COUNTERS[1]];
     type Tables = LobeTables;
 
     fn takes(light: &AreaLight) -> bool {
@@ -161,8 +168,17 @@ impl Estimator for PolygonalLights {
         let shader = linked_shader(kinds, &settings)?;
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
-        let (products, count) = (even_count(settings.bands) * kinds.channels(), lights.len());
-        Ok(match Records::new(&lights, settings.approximation) {
+        let grid = tables.grid.as_ref().map(|grid| {
+            let results = gather.results();
+            let (surfaces, count) = surfaces;
+            let tables = &tables.on_gpu;
+            let pixels = Pixels { surfaces, count, camera: eye, tables, results };
+            grid.part(on_gpu.gpu(), kinds, &pixels, lights.len())
+        });
+        let grid = grid.transpose()?;
+        let gathered = tables.grid.as_ref().map_or(&lights[..], LightGrid::near);
+        let (products, count) = (even_count(settings.bands) * kinds.channels(), gathered.len());
+        let gather: Box<dyn Run> = match Records::new(gathered, settings.approximation) {
             Records::Exact(records) => {
                 Box::new(AreaLightRun::new(on_gpu, gather, (records, count), products))
             }
@@ -172,14 +188,30 @@ impl Estimator for PolygonalLights {
             Records::Corners(records) => {
                 Box::new(AreaLightRun::new(on_gpu, gather, (records, count), products))
             }
-        })
+        };
+        Ok(Box::new(InterpolatedRun::new(gather, grid)))
     }
 }
 
-/// The lobes of a scene's materials, on the adapter: the bake.
+/// The grid of a picture.
+fn light_grid(
+    frame: &AreaLightFrame<'_>,
+    settings: &Settings,
+    how: Interpolation,
+) -> Result<LightGrid, Error> {
+    let AreaLightFrame { scene, on_gpu, pixels, ref lights, .. } = *frame;
+    let gpu = on_gpu.gpu();
+    let lit = Lit { gpu, scene, surfaces: (on_gpu.surfaces(), pixels), lights };
+    Ok(LightGrid::new(how, &lit, |grid, far| {
+        project(gpu, grid, settings, (how.scheme.reads_gradients(), how.loops), far)
+    })?)
+}
+
+/// The lobes of a scene's materials, on the adapter, and what a grid holds of the lights: the bake.
 pub struct LobeTables {
     on_gpu: Vec<Buffer>,
     count: u64,
+    grid: Option<LightGrid>,
 }
 
 impl SceneTables for LobeTables {
@@ -194,7 +226,30 @@ impl SceneTables for LobeTables {
         }
         let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
         let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
-        Ok(Self { on_gpu, count: receivers.count() })
+        let grid = Interpolation::new(parameters).map(|how| light_grid(frame, &settings, how));
+        Ok(Self { on_gpu, count: receivers.count(), grid: grid.transpose()? })
+    }
+
+    fn depends_on(parameters: &Parameters) -> Dependencies {
+        let tables = Dependencies { scene: true, amount: true, ..Dependencies::default() };
+        Interpolation::new(parameters).map_or(tables, |how| how.depends_on())
+    }
+
+    fn processor(parameters: &Parameters) -> Processor {
+        Interpolation::new(parameters).map_or(Processor::Cpu, |_| Processor::Gpu)
+    }
+
+    fn grow(&mut self, frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<(), Error> {
+        if let (Some(grid), Some(how)) = (&mut self.grid, Interpolation::new(parameters)) {
+            let mut next = light_grid(frame, &Settings::new(parameters), how)?;
+            next.follow(grid);
+            *grid = next;
+        }
+        Ok(())
+    }
+
+    fn pass_times(&self) -> Vec<PassTime> {
+        self.grid.as_ref().map_or(Vec::new(), LightGrid::pass_times)
     }
 
     fn count(&self) -> u64 {

@@ -1,5 +1,6 @@
 use manylights_area_lights::{BANDS, Narrow};
 use manylights_harmonics::zonal::TriangleForm;
+use manylights_interpolation::Interpolation;
 use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
 
 use crate::Edges;
@@ -69,6 +70,11 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         },
     },
     Narrow::PARAMETER,
+    Interpolation::SCHEME,
+    Interpolation::GRID,
+    Interpolation::BOUNDS,
+    Interpolation::LOOPS,
+    Interpolation::READING,
 ];
 
 const EDGES: [(&str, Edges); 2] = [("own", Edges::Own), ("shared", Edges::Shared)];

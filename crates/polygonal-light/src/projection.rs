@@ -4,10 +4,16 @@ use bytemuck::{Pod, Zeroable};
 use manylights_gpu::{Binding, Error, Gpu, PassTime, Resource, UniformBatches, link};
 use manylights_harmonics::count;
 use manylights_harmonics::polygon::PolygonProjection;
-use manylights_interpolation::{Grid, GridCoefficients};
+use manylights_harmonics::wgsl::{self, Function};
+use manylights_harmonics::zonal::TriangleForm;
+use manylights_interpolation::{
+    self as interpolation, Grid, GridCoefficients, Loops, ProjectionShader, SourceShader,
+};
 use manylights_scene::AreaLight;
 
+use crate::gather::{Records, form_features, points_module};
 use crate::light_record::CornerRecord;
+use crate::{Approximation, Settings};
 
 /// Triangles a batch.
 const CAPACITY: usize = 512;
@@ -23,13 +29,57 @@ struct Told {
     vertices: u32,
 }
 
+/// The coefficients of triangles at the vertices of a grid, with gradients or without, and the time of each pass.
+///
+/// # Errors
+/// Where the adapter refuses a kernel or a buffer, or the device gave up.
+pub fn project(
+    gpu: &Gpu,
+    grid: Grid<f32>,
+    settings: &Settings,
+    (gradients, loops): (bool, Loops),
+    lights: &[AreaLight],
+) -> Result<(GridCoefficients, Vec<PassTime>), Error> {
+    let bands = settings.bands;
+    let Approximation::Sphere(form) = settings.approximation else {
+        return project_exactly(gpu, grid, (bands, gradients), lights);
+    };
+    let shader = linked_projection(form, bands, (gradients, loops))?;
+    match Records::new(lights, settings.approximation) {
+        Records::Exact(records) => interpolation::project(gpu, grid, &shader, &records),
+        Records::Centers(records) => interpolation::project(gpu, grid, &shader, &records),
+        Records::Corners(records) => interpolation::project(gpu, grid, &shader, &records),
+    }
+}
+
+/// The projection of spheres in the stead of triangles.
+fn linked_projection(
+    form: TriangleForm,
+    bands: usize,
+    (gradients, loops): (bool, Loops),
+) -> Result<ProjectionShader, Error> {
+    let function = if gradients { Function::CapScalesWithRate } else { Function::CapScalesOf };
+    SourceShader {
+        source: include_str!("shaders/source.wesl"),
+        modules: &[
+            ("sh", &*wgsl::module(bands, &[function])),
+            ("points", &*points_module(bands)),
+            ("triangle", include_str!("shaders/triangle.wesl")),
+            ("solid_angle", include_str!("shaders/solid_angle.wesl")),
+        ],
+        features: &form_features(Some(form)),
+        capacity: CAPACITY,
+    }
+    .link(bands, gradients, loops)
+}
+
 /// The coefficients of triangles at the vertices of a grid, lobe by lobe (Wu et al. 2020), and the time of each
 /// pass: zonal integrals about 2n − 1 directions, a lane each, then the inverse of the addition theorem once a
 /// vertex. Lights without area are left out.
 ///
 /// # Errors
 /// Where the adapter refuses a kernel or a buffer, or the device gave up.
-pub fn project_exactly(
+fn project_exactly(
     gpu: &Gpu,
     grid: Grid<f32>,
     (bands, gradients): (usize, bool),

@@ -7,6 +7,7 @@ mod forms;
 mod forms_hard_cases;
 mod gather;
 mod hard_cases;
+mod interpolated;
 mod operations;
 mod projection;
 mod scenes;

@@ -1,8 +1,10 @@
 //! Coefficients at the vertices of a grid against f64.
 
 use glam::Vec3;
-use manylights_interpolation::Grid;
-use manylights_polygonal_light::{Approximation, Edges, Narrow, Settings, oracle, project_exactly};
+use manylights_interpolation::{Grid, Loops};
+use manylights_polygonal_light::{
+    Approximation, Edges, Narrow, Settings, TriangleForm, oracle, project,
+};
 use manylights_scene::AreaLight;
 
 use crate::common::GPU;
@@ -30,14 +32,13 @@ fn lights(size: f32, distance: f32) -> Vec<AreaLight> {
 }
 
 /// The largest error beside the largest value or derivative, of all with gradients and of values alone.
-fn errors(bands: usize, lights: &[AreaLight]) -> [f64; 2] {
-    let approximation = Approximation::Exact(Edges::Own);
+fn errors(approximation: Approximation, bands: usize, lights: &[AreaLight]) -> [f64; 2] {
     let settings = Settings { bands, approximation, narrow: Narrow::Decline };
     let truth = oracle::coefficients(&grid(), lights, &settings);
     let largest = truth.as_flattened().as_flattened().iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     [true, false].map(|gradients| {
-        let (found, _) =
-            project_exactly(&GPU, grid(), (bands, gradients), lights).expect("a projection");
+        let (found, _) = project(&GPU, grid(), &settings, (gradients, Loops::Reverse), lights)
+            .expect("a projection");
         let found: Vec<[f32; 4]> = GPU.read(&found.buffer).expect("coefficients");
         let mut worst = 0.0_f64;
         for (i, truth) in truth.iter().enumerate() {
@@ -57,9 +58,19 @@ fn errors(bands: usize, lights: &[AreaLight]) -> [f64; 2] {
 fn lobes_are_the_sums_of_f64() {
     for bands in [1, 2, 5, 9] {
         for (size, distance) in [(1.0, 2.0), (0.3, 2.0), (0.1, 3.0), (1.0, 30.0)] {
-            let [both, values] = errors(bands, &lights(size, distance));
+            let [both, values] =
+                errors(Approximation::Exact(Edges::Own), bands, &lights(size, distance));
             println!("{bands} bands, size {size} at {distance}: {both:.1e}, {values:.1e}");
             assert!(both < 1e-5 && values < 1e-5, "{bands} bands, size {size} at {distance}");
         }
+    }
+}
+
+#[test]
+fn spheres_in_the_stead_of_triangles_are_the_sums_of_f64() {
+    for form in TriangleForm::ALL {
+        let [both, values] = errors(Approximation::Sphere(form), 4, &lights(0.7, 3.0));
+        println!("{form:?}: {both:.1e}, {values:.1e}");
+        assert!(both < 1e-5 && values < 1e-5, "{form:?}");
     }
 }

@@ -61,7 +61,6 @@
 
 pub mod cap_table;
 mod gather;
-mod light_grid;
 pub mod oracle;
 mod params;
 mod projection;
@@ -71,14 +70,12 @@ use manylights_area_lights::{
 };
 use manylights_gpu::Buffer;
 use manylights_harmonics::even_count;
-use manylights_interpolation::{InterpolatedRun, Interpolation};
+use manylights_interpolation::{InterpolatedRun, Interpolation, LightGrid, Lit, Pixels, project};
 use manylights_method::{
     CounterInfo, Dependencies, Error, ParameterInfo, Parameters, PassTime, Processor, Run,
 };
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::AreaLight;
-
-use light_grid::LightGrid;
 
 pub use gather::{SphereLight, gather, linked_shader};
 pub use manylights_area_lights::Narrow;
@@ -117,16 +114,16 @@ impl Estimator for SphericalLights {
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
         let products = even_count(settings.bands) * kinds.channels();
-        let grid = match &tables.grid {
-            Some(grid) => {
-                Some(grid.part(&gather, (surfaces, eye), kinds, &tables.on_gpu, lights.len())?)
-            }
-            None => None,
-        };
-        let records = match &tables.grid {
-            Some(grid) => grid.near.clone(),
-            None => lights.iter().filter_map(SphereLight::of).collect(),
-        };
+        let grid = tables.grid.as_ref().map(|grid| {
+            let results = gather.results();
+            let (surfaces, count) = surfaces;
+            let tables = &tables.on_gpu;
+            let pixels = Pixels { surfaces, count, camera: eye, tables, results };
+            grid.part(on_gpu.gpu(), kinds, &pixels, lights.len())
+        });
+        let grid = grid.transpose()?;
+        let gathered = tables.grid.as_ref().map_or(&lights[..], LightGrid::near);
+        let records: Vec<_> = gathered.iter().filter_map(SphereLight::of).collect();
         let count = records.len();
         let gather = AreaLightRun::new(on_gpu, gather, (records, count), products);
         Ok(Box::new(InterpolatedRun::new(Box::new(gather), grid)))
@@ -154,7 +151,7 @@ impl SceneTables for LobeTables {
         let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
         let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
         let of_caps = u64::from(settings.coefficients == Coefficients::Tabulated);
-        let grid = interpolation.map(|how| LightGrid::new(frame, &settings, how)).transpose()?;
+        let grid = interpolation.map(|how| light_grid(frame, &settings, how)).transpose()?;
         Ok(Self { on_gpu, count: receivers.count() + of_caps, grid })
     }
 
@@ -168,10 +165,12 @@ impl SceneTables for LobeTables {
     }
 
     fn grow(&mut self, frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<(), Error> {
-        match &mut self.grid {
-            Some(grid) => grid.project(frame, &Settings::new(parameters)),
-            None => Ok(()),
+        if let (Some(grid), Some(how)) = (&mut self.grid, Interpolation::new(parameters)) {
+            let mut next = light_grid(frame, &Settings::new(parameters), how)?;
+            next.follow(grid);
+            *grid = next;
         }
+        Ok(())
     }
 
     fn pass_times(&self) -> Vec<PassTime> {
@@ -181,6 +180,21 @@ impl SceneTables for LobeTables {
     fn count(&self) -> u64 {
         self.count
     }
+}
+
+/// The grid of a picture.
+fn light_grid(
+    frame: &AreaLightFrame<'_>,
+    settings: &Settings,
+    how: Interpolation,
+) -> Result<LightGrid, Error> {
+    let AreaLightFrame { scene, on_gpu, pixels, ref lights, .. } = *frame;
+    let gpu = on_gpu.gpu();
+    let lit = Lit { gpu, scene, surfaces: (on_gpu.surfaces(), pixels), lights };
+    let shader = linked_projection(settings, how.scheme.reads_gradients(), how.loops)?;
+    Ok(LightGrid::new(how, &lit, |grid, far| {
+        project(gpu, grid, &shader, &far.iter().filter_map(SphereLight::of).collect::<Vec<_>>())
+    })?)
 }
 
 /// What a grid holds are analytic coefficients, which the whole lobe meets.
