@@ -74,3 +74,36 @@ fn spheres_in_the_stead_of_triangles_are_the_sums_of_f64() {
         assert!(both < 1e-5 && values < 1e-5, "{form:?}");
     }
 }
+
+/// Vertices at corners, on edges, in planes, at centroids, and lights that are larger than the grid or hardly there.
+#[test]
+fn vertices_on_lights_see_what_is_finite() {
+    let grid = Grid::over([[-1.0; 3], [1.0; 3]], [3; 3]);
+    let (o, x, y) = (Vec3::ZERO, Vec3::X, Vec3::Y);
+    let outlines = [
+        [o, x, y],
+        [x - y, -x - y, y],
+        [-x - 0.5 * y, x - 0.5 * y, y],
+        [50.0 * x, -50.0 * x, 90.0 * y],
+        [o, 1e-10 * x, 1e-10 * y],
+        [-1e10 * x, 1e10 * x, 1e10 * y],
+        [o, x, 1e-7 * y],
+    ];
+    let forms = TriangleForm::ALL.map(Approximation::Sphere);
+    for approximation in forms.into_iter().chain([Approximation::Exact(Edges::Own)]) {
+        let settings = Settings { bands: 4, approximation, narrow: Narrow::Decline };
+        for corners in outlines {
+            for two_sided in [false, true] {
+                let lights = [AreaLight::Triangle { corners, radiance: Vec3::ONE, two_sided }];
+                for gradients in [false, true] {
+                    let how = (gradients, Loops::Reverse);
+                    let (found, _) =
+                        project(&GPU, grid, &settings, how, &lights).expect("a projection");
+                    let found: Vec<[f32; 4]> = GPU.read(&found.buffer).expect("coefficients");
+                    let finite = found.as_flattened().iter().all(|value| value.is_finite());
+                    assert!(finite, "{approximation:?}, {corners:?}, {two_sided}, {gradients}");
+                }
+            }
+        }
+    }
+}

@@ -59,3 +59,22 @@ fn both_loops_are_the_sums_of_f64() {
         assert!(both < 1e-5 && values < 1e-5, "{bands}, {extent:?}, {loops:?}");
     }
 }
+
+/// Vertices at the centre, inside, on the surface and in the plane of a light, and one larger than the grid.
+#[test]
+fn vertices_in_lights_see_what_is_finite() {
+    let grid = Grid::over([[-1.0; 3], [1.0; 3]], [3; 3]);
+    for extent in [Extent::Sphere, Extent::Disc] {
+        let settings = Settings { bands: 5, extent, ..SETTINGS };
+        for (radius, gradients) in [0.5, 1.0, 1e-6, 1e6].map(|r| [(r, true), (r, false)]).concat() {
+            let lights = [SphereLight::new(Vec3::ZERO, radius, Vec3::ONE)];
+            let shader = linked_projection(&settings, gradients, Loops::Reverse).expect("links");
+            let (found, _) = project(&GPU, grid, &shader, &lights).expect("a projection");
+            let found: Vec<[f32; 4]> = GPU.read(&found.buffer).expect("coefficients");
+            // Of a hemisphere 2π Y_00.
+            let most = if gradients { 1e8 } else { 2.0 };
+            let fine = found.as_flattened().iter().all(|value| value.abs() <= most);
+            assert!(fine, "{extent:?}, {radius}, {gradients}");
+        }
+    }
+}
