@@ -10,6 +10,13 @@ fn noise(i: usize) -> f32 {
     ((i as f64 * 0.754_877_666_246_692_8).fract() * 2.0 - 1.0) as f32
 }
 
+/// Seconds of all processors so far.
+fn busy() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/stat").expect("Linux");
+    let fields: Vec<_> = text.rsplit(')').next().expect("fields").split_whitespace().collect();
+    fields[11].parse::<f64>().expect("ticks") * 0.01
+}
+
 fn main() {
     let gpu = Gpu::new(None).expect("an adapter");
     println!("{:?}", gpu.report());
@@ -21,7 +28,9 @@ fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let chosen = |name: &str| arguments.len() < 2 || arguments.iter().any(|a| a == name);
     for brdf in [lambert, grey] {
-        if !chosen(if brdf == lambert { "lambert" } else { "grey" }) { continue; }
+        if !chosen(if brdf == lambert { "lambert" } else { "grey" }) {
+            continue;
+        }
         let surfaces: Vec<_> = (0..width * height)
             .map(|i| {
                 let (x, y) = (
@@ -38,7 +47,9 @@ fn main() {
         let kinds = materials.kinds();
         for bands in [5, 9] {
             for scheme in [Scheme::Trilinear, Scheme::Hermite] {
-                if !chosen(&format!("{scheme:?}{bands}")) { continue; }
+                if !chosen(&format!("{scheme:?}{bands}")) {
+                    continue;
+                }
                 let grid = Grid::over([[-1.0; 3], [1.0; 3]], [8; 3]);
                 let settings = Settings { grid, scheme, bands, kinds, order: Order::Plain };
                 let data: Vec<[f32; 4]> = (0..settings.vectors() * grid.count())
@@ -65,7 +76,9 @@ fn main() {
                 };
                 let mut pictures = Vec::new();
                 for order in [Order::Plain, Order::Sorted] {
-                    if !chosen(&format!("{order:?}")) { continue; }
+                    if !chosen(&format!("{order:?}")) {
+                        continue;
+                    }
                     let settings = Settings { order, ..settings };
                     let results = gpu.zeroed("results", 16 * surfaces.len() as u64).expect("fits");
                     let pixels = Pixels { results: &results, ..pixels };
@@ -74,6 +87,7 @@ fn main() {
                         Reading::new(&gpu, &settings, &coefficients, &pixels).expect("kernel");
                     reading.add().expect("a run");
                     let first = start.elapsed().as_secs_f64();
+                    let compiled = busy();
                     pictures.push(gpu.read::<[f32; 4]>(&results).expect("results"));
                     let best = (0..9)
                         .map(|_| {
@@ -83,6 +97,8 @@ fn main() {
                         })
                         .min_by(|a, b| a.0.total_cmp(&b.0))
                         .expect("some");
+                    let busy = (busy() - compiled) / 9.0;
+                    print!("cpu {:.0} ms (compile {compiled:.1} s) ", busy * 1e3);
                     print!(
                         "specular {} bands {bands} {scheme:?}: {order:?} {:.1} ms (first {first:.2} s);",
                         kinds.specular,
@@ -93,7 +109,9 @@ fn main() {
                     }
                     println!();
                 }
-                if pictures.len() < 2 { continue; }
+                if pictures.len() < 2 {
+                    continue;
+                }
                 let most = pictures[0].iter().flatten().fold(0.0_f32, |m, v| m.max(v.abs()));
                 let off = pictures[0]
                     .iter()
