@@ -56,6 +56,6 @@ impl Settings {
     /// kernel: with the turns of a specular lobe it takes 5 s to compile for four pixels and 15 s for eight
     /// (`results/throughput/interpolation.md`).
     pub(crate) fn pixels_a_lane(&self) -> usize {
-        if self.kinds.specular { 4 } else { 8 }
+        if self.kinds.specular { 6 } else { 12 }
     }
 }
