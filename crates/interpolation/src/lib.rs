@@ -22,6 +22,7 @@ mod scheme;
 mod settings;
 mod shader;
 mod sorted;
+mod sorted_wgsl;
 mod view;
 
 pub use grid::{Grid, Place};

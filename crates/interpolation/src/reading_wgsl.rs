@@ -62,45 +62,57 @@ pub(crate) fn world_lobe(bands: usize, kinds: ReceiverKinds) -> String {
         )
 }
 
-/// A module with `corner_radiance(lobe: array<E, N>, place: u32, weights) -> vec3f`: what a lobe makes of a
-/// corner, where `source[place].values` are its coefficients. The weights meet sums over all coefficients, not
-/// each of them.
-pub(crate) fn corner(bands: usize, kinds: ReceiverKinds, gradients: bool, source: &str) -> String {
+/// A module with, for P pixels, `corner_radiance(lobe0: array<E, N>, …, place: u32, weights0, …) -> array<vec3f,
+/// P>`: what their lobes make of a corner, where `source[place].values` are its coefficients. The weights meet sums
+/// over all coefficients, not each of them, and channels follow each other, so that few sums are held at a time.
+pub(crate) fn corner(
+    bands: usize,
+    kinds: ReceiverKinds,
+    gradients: bool,
+    (source, pixels): (&str, usize),
+) -> String {
     let size = count(bands);
     let element = if kinds.specular { "vec3f" } else { "f32" };
     let lobes = diffuse::lobes(bands, Damping::None);
     // Of a Lambertian lobe most odd bands vanish.
-    let used = (0..size).filter(|i| kinds.specular || lobes[i.isqrt()][0] != 0.0);
+    let used: Vec<_> = (0..size).filter(|i| kinds.specular || lobes[i.isqrt()][0] != 0.0).collect();
     let (variable, field) = source.split_once('.').unwrap_or((source, ""));
-    let at = |i: usize| match field {
-        "" => format!("{variable}[place].values[{i}]"),
-        field => format!("{variable}.{field}[place].values[{i}]"),
-    };
-    let sum = |i: usize| {
-        if !gradients {
-            return format!("    sum += lobe[{i}] * {}.xyz;\n", at(i));
+    let dot = if field.is_empty() { "" } else { "." };
+    let at = |i: usize| format!("{variable}{dot}{field}[place].values[{i}]");
+    let each = |text: &dyn Fn(usize) -> String| (0..pixels).map(text).collect::<String>();
+    let mut body = String::new();
+    let kind = if gradients { "vec4f" } else { "f32" };
+    if gradients {
+        for (channel, name) in ["red", "green", "blue"].into_iter().enumerate() {
+            body += &each(&|p| format!("    var {name}{p} = vec4f();\n"));
+            for &i in &used {
+                let lobe = |p: usize| match kinds.specular {
+                    true => format!("lobe{p}[{i}][{channel}]"),
+                    false => format!("lobe{p}[{i}]"),
+                };
+                body += &format!("    let {name}_{i} = {};\n", at(3 * i + channel));
+                body += &each(&|p| format!("    {name}{p} += {} * {name}_{i};\n", lobe(p)));
+            }
         }
-        let channel = |(channel, name): (usize, &str)| {
-            let lobe = match kinds.specular {
-                true => format!("lobe[{i}][{channel}]"),
-                false => format!("lobe[{i}]"),
-            };
-            format!("    {name} += {lobe} * {};\n", at(3 * i + channel))
-        };
-        ["red", "green", "blue"].into_iter().enumerate().map(channel).collect()
-    };
-    let sums: String = used.map(sum).collect();
-    let (kind, start, end) = match gradients {
-        false => ("f32", "    var sum = vec3f();\n", "weights * sum"),
-        true => (
-            "vec4f",
-            "    var red = vec4f();\n    var green = vec4f();\n    var blue = vec4f();\n",
-            "vec3f(dot(weights, red), dot(weights, green), dot(weights, blue))",
+    } else {
+        body += &each(&|p| format!("    var sum{p} = vec3f();\n"));
+        for &i in &used {
+            body += &format!("    let value_{i} = {}.xyz;\n", at(i));
+            body += &each(&|p| format!("    sum{p} += lobe{p}[{i}] * value_{i};\n"));
+        }
+    }
+    let value = |p: usize| match gradients {
+        true => format!(
+            "        vec3f(dot(weights{p}, red{p}), dot(weights{p}, green{p}), dot(weights{p}, blue{p})),\n"
         ),
+        false => format!("        weights{p} * sum{p},\n"),
     };
     format!(
         "import package::bindings::{variable};\n\n\
-         fn corner_radiance(lobe: array<{element}, {size}>, place: u32, weights: {kind}) -> vec3f {{\n\
-         {start}{sums}    return {end};\n}}\n"
+         fn corner_radiance(\n{}    place: u32,\n{}) -> array<vec3f, {pixels}> {{\n\
+         {body}    return array<vec3f, {pixels}>(\n{}    );\n}}\n",
+        each(&|p| format!("    lobe{p}: array<{element}, {size}>,\n")),
+        each(&|p| format!("    weights{p}: {kind},\n")),
+        each(&value),
     )
 }

@@ -51,4 +51,11 @@ impl Settings {
     pub(crate) fn block_bytes(&self) -> usize {
         16 * (1 + 8 * self.vectors())
     }
+
+    /// Of those that are sorted. The more, the more often a number that is loaded is used, and the longer the
+    /// kernel: with the turns of a specular lobe it takes 5 s to compile for four pixels and 15 s for eight
+    /// (`results/throughput/interpolation.md`).
+    pub(crate) fn pixels_a_lane(&self) -> usize {
+        if self.kinds.specular { 6 } else { 12 }
+    }
 }

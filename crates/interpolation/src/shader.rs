@@ -6,11 +6,12 @@ use manylights_gpu::{Binding, Error, Gpu, Kernel, link};
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_reflectance::{Damping, Form, LOBES, MODULES, SHAPES, diffuse, lobe_wgsl};
 
+use crate::sorted_wgsl::sorted_entry;
 use crate::view::VIEW;
 use crate::{Scheme, Settings, reading_wgsl};
 
-/// Lanes of a workgroup.
-pub(crate) const LANES: u32 = 64;
+/// Lanes of a workgroup: few, since several pixels a lane of each cell are rounded up to whole workgroups.
+pub(crate) const LANES: u32 = 32;
 
 /// A linked kernel with what it binds.
 pub struct Shader {
@@ -33,20 +34,21 @@ impl Shader {
         let tables = [SHAPES, LOBES].map(|name| format!("{name}: array<vec2f>"));
         let start =
             [(Binding::Uniform, "view: View"), (Binding::Storage, "surfaces: array<Surface>")];
+        let pixels = settings.pixels_a_lane();
         let (own, source, entry) = if settings.is_sorted() {
             let own = [
                 (Binding::StorageMut, "pixels: array<vec4f>"),
                 (Binding::Storage, "order: array<u32>"),
                 (Binding::Batch, "block: Block"),
             ];
-            (own, "block.corners", include_str!("shaders/sorted.wesl"))
+            (own, ("block.corners", pixels), sorted_entry(pixels))
         } else {
             let own = [
                 (Binding::StorageMut, "pixels: array<vec4f>"),
                 (Binding::StorageMut, "outside: atomic<u32>"),
                 (Binding::Storage, "coefficients: array<Vertex>"),
             ];
-            (own, "coefficients", include_str!("shaders/plain.wesl"))
+            (own, ("coefficients", 1), include_str!("shaders/plain.wesl").to_owned())
         };
         let mut bindings = [&start[..], &own].concat();
         if settings.kinds.specular {
@@ -72,7 +74,7 @@ impl Shader {
             ("measured", false),
         ];
         let features = [&features[..], &kinds.features(Form::Full)].concat();
-        let wgsl = linked(settings, ("read", entry), &bindings, &modules, &features)?;
+        let wgsl = linked(settings, ("read", &entry), &bindings, &modules, &features)?;
         Ok(Self { wgsl, name: "read", bindings: layout(&bindings) })
     }
 

@@ -16,6 +16,7 @@ const BLOCKS_BYTES: usize = 1 << 26;
 pub(crate) struct Sorted {
     cells: [u32; 3],
     block_bytes: usize,
+    pixels_a_group: u32,
     workgroups: [u32; 3],
     count: Arc<Kernel>,
     scatter: Arc<Kernel>,
@@ -44,7 +45,7 @@ struct Layout {
 }
 
 impl Layout {
-    fn new([width, height, _]: [u32; 3], counts: &[u32]) -> Self {
+    fn new([width, height, _]: [u32; 3], counts: &[u32], pixels_a_group: u32) -> Self {
         let mut layout =
             Self { firsts: Vec::new(), cells: Vec::new(), pixels: Vec::new(), length: 0 };
         for (index, &count) in (0..).zip(counts) {
@@ -55,7 +56,7 @@ impl Layout {
             let cell = [index % width, index / width % height, index / (width * height)];
             layout.cells.push([cell[0], cell[1], cell[2], layout.length]);
             layout.pixels.push(count);
-            layout.length += count.next_multiple_of(LANES);
+            layout.length += count.next_multiple_of(pixels_a_group);
         }
         layout
     }
@@ -73,6 +74,7 @@ impl Sorted {
         Ok(Self {
             cells: settings.grid.vertices.map(|vertices| vertices as u32 - 1),
             block_bytes,
+            pixels_a_group: LANES * settings.pixels_a_lane() as u32,
             workgroups: workgroups(pixels.count, LANES),
             count: Shader::count(settings)?.compile(gpu)?,
             scatter: Shader::scatter(settings)?.compile(gpu)?,
@@ -101,7 +103,7 @@ impl Sorted {
         let mut times = gpu.run(&[count.over(self.workgroups)])?;
         let counts: Vec<u32> = gpu.read(&counts)?;
         self.outside += counts[cells];
-        let layout = Layout::new(self.cells, &counts[..cells]);
+        let layout = Layout::new(self.cells, &counts[..cells], self.pixels_a_group);
         let firsts = gpu.storage("first pixels of cells", &layout.firsts)?;
         let order = gpu.zeroed("pixels in order", 4 * u64::from(layout.length))?;
         let scatter = self.pass(gpu, "sort", &self.scatter, &[&self.places, &firsts, &order])?;
@@ -141,7 +143,8 @@ impl Sorted {
         resources.push(Resource::Batches(&blocks));
         resources.extend(self.tables.iter().map(Resource::Buffer));
         let read = gpu.pass("read", &self.read, &resources)?;
-        let of_cell = |(index, &count): (usize, &u32)| (index, workgroups(count, LANES));
+        let of_cell =
+            |(index, &count): (usize, &u32)| (index, workgroups(count, self.pixels_a_group));
         gpu.run(&[
             assemble.over([cells.len() as u32, 1, 1]),
             read.over_batches(pixels.iter().enumerate().map(of_cell)),

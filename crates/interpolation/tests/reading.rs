@@ -1,15 +1,15 @@
 //! The adapter against the oracle.
 
 use crate::common::{
-    CAMERA, GPU, OUTSIDE, SCHEMES, coefficients, colored, dielectric, grey, lambertian, measured,
-    on_adapter, settings, surfaces,
+    CAMERA, GPU, OUTSIDE, SCHEMES, coefficients, colored, dielectric, grey, grid, lambertian,
+    measured, on_adapter, settings, surfaces,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3, Vec4};
 use manylights_gpu::SurfaceRecord;
-use manylights_interpolation::{Pixels, Reading, Scheme, Settings, oracle};
+use manylights_interpolation::{Order, Pixels, Reading, Scheme, Settings, oracle};
 use manylights_scene::Brdf;
 
-fn plain<'a>(
+fn read<'a>(
     settings: &'a Settings,
     coefficients: &'a [[f32; 4]],
 ) -> impl Fn(&Pixels<'_>) -> u32 + 'a {
@@ -51,34 +51,93 @@ fn kinds() -> Vec<Vec<Brdf>> {
     ]
 }
 
+/// Both orders against the oracle and against each other, over the largest radiance.
+fn check(settings: Settings, brdfs: &[Brdf]) {
+    let (surfaces, light) = (surfaces(brdfs), coefficients(&settings));
+    let [plain, sorted] = [Order::Plain, Order::Sorted].map(|order| {
+        let settings = Settings { order, ..settings };
+        let (values, outside) = on_adapter(&settings, brdfs, &surfaces, read(&settings, &light));
+        assert_eq!(outside, OUTSIDE);
+        let error = error(&values, &surfaces, &settings, &light);
+        assert!(error <= 1e-6, "{settings:?}, {brdfs:?}: {error:e}");
+        values
+    });
+    let largest = plain.iter().flatten().fold(0.0, |most: f32, value| most.max(value.abs()));
+    let pairs = plain.iter().flatten().zip(sorted.iter().flatten());
+    let apart = pairs.fold(0.0, |most: f32, (a, b)| most.max((a - b).abs()));
+    assert!(apart <= 1e-6 * largest, "{settings:?}, {brdfs:?}: {apart:e}");
+}
+
 #[test]
 fn the_adapter_reads_as_the_oracle_does() {
     for brdfs in kinds() {
-        let surfaces = surfaces(&brdfs);
         for scheme in SCHEMES {
-            let settings = settings(scheme, 5, &brdfs);
-            let light = coefficients(&settings);
-            let (values, outside) =
-                on_adapter(&settings, &brdfs, &surfaces, plain(&settings, &light));
-            let error = error(&values, &surfaces, &settings, &light);
-            println!("{scheme:?}, {} reflectances: {error:.1e}", brdfs.len());
-            assert!(error <= 1e-6, "{scheme:?}, {brdfs:?}: {error:e}");
-            assert_eq!(outside, OUTSIDE);
+            check(settings(scheme, 3, &brdfs), &brdfs);
         }
     }
 }
 
 #[test]
 fn one_to_fifteen_bands() {
-    let brdfs = [lambertian(), grey(0.4)];
-    let surfaces = surfaces(&brdfs);
+    let brdfs = [lambertian()];
     for bands in 1..=15 {
         let scheme = if bands % 2 == 0 { Scheme::Trilinear } else { Scheme::Hermite };
-        let settings = settings(scheme, bands, &brdfs);
+        check(settings(scheme, bands, &brdfs), &brdfs);
+    }
+}
+
+#[test]
+fn thirteen_bands_with_gradients_fit_uniform_memory() {
+    let sorted = |scheme, bands| {
+        Settings { order: Order::Sorted, ..settings(scheme, bands, &[lambertian()]) }.is_sorted()
+    };
+    assert!(sorted(Scheme::Hermite, 13) && sorted(Scheme::Trilinear, 15));
+    assert!(!sorted(Scheme::Hermite, 14));
+}
+
+/// Points a little apart on both sides of a cell's faces.
+#[test]
+fn radiance_does_not_jump_across_faces() {
+    let brdfs = [grey(0.4)];
+    let face = |axis: usize, side: f32| {
+        let grid = grid();
+        let place = [0, 1, 2].map(|i| if i == axis { 1.0 + 1e-7 * side } else { 1.37 });
+        let position = [0, 1, 2].map(|i| grid.origin[i] + place[i] * grid.spacing[i]);
+        SurfaceRecord::new(position.into(), Vec3::Z, brdfs[0])
+    };
+    let surfaces: Vec<_> =
+        (0..3).flat_map(|axis| [-1.0, 1.0].map(|side| face(axis, side))).collect();
+    for scheme in SCHEMES {
+        for order in [Order::Plain, Order::Sorted] {
+            let settings = Settings { order, ..settings(scheme, 5, &brdfs) };
+            let light = coefficients(&settings);
+            let (values, _) = on_adapter(&settings, &brdfs, &surfaces, read(&settings, &light));
+            for pair in values.chunks_exact(2) {
+                let apart = (Vec4::from(pair[0]) - Vec4::from(pair[1])).abs().max_element();
+                let value = Vec4::from(pair[0]).abs().max_element();
+                assert!(apart <= 1e-6 * value.max(1.0), "{scheme:?}, {order:?}: {apart:e}");
+            }
+        }
+    }
+}
+
+/// What was there stays, and a second reading adds the same once more.
+#[test]
+fn readings_add_up() {
+    let brdfs = [lambertian(), grey(0.4)];
+    let surfaces = surfaces(&brdfs);
+    for order in [Order::Plain, Order::Sorted] {
+        let settings = Settings { order, ..settings(Scheme::Hermite, 3, &brdfs) };
         let light = coefficients(&settings);
-        let (values, _) = on_adapter(&settings, &brdfs, &surfaces, plain(&settings, &light));
-        let error = error(&values, &surfaces, &settings, &light);
-        println!("{bands} bands: {error:.1e}");
-        assert!(error <= 1e-6, "{bands} bands: {error:e}");
+        let (once, _) = on_adapter(&settings, &brdfs, &surfaces, read(&settings, &light));
+        let (twice, outside) = on_adapter(&settings, &brdfs, &surfaces, |pixels| {
+            let on_gpu = GPU.storage("coefficients", &light).expect("it fits");
+            let mut reading = Reading::new(&GPU, &settings, &on_gpu, pixels).expect("kernels");
+            reading.add().expect("a run");
+            reading.add().expect("a run");
+            reading.outside().expect("a count")
+        });
+        assert_eq!(twice, once.iter().map(|value| value.map(|v| 2.0 * v)).collect::<Vec<_>>());
+        assert_eq!(outside, 2 * OUTSIDE);
     }
 }

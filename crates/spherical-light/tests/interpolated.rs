@@ -219,7 +219,7 @@ fn what_a_grid_cannot_hold_is_declined() {
     ] {
         let texts = [("interpolation", "trilinear"), (name, word)];
         let refused = render(&scene, RESOLUTION, &texts, DIRECT);
-        let said = refused.err().expect("declined").to_string();
+        let said = refused.expect_err("declined").to_string();
         assert!(said.contains(mend), "{said}");
     }
 }
