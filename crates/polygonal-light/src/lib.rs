@@ -108,6 +108,7 @@
 //! - `scaled` and `point` are not in the thesis.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
+mod bake;
 mod exact;
 mod gather;
 mod light_record;
@@ -116,18 +117,14 @@ pub mod oracle;
 mod params;
 mod projection;
 
-use manylights_area_lights::{
-    AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS, SceneTables,
-};
-use manylights_gpu::Buffer;
+use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS};
 use manylights_harmonics::even_count;
-use manylights_interpolation::{InterpolatedRun, Interpolation, LightGrid, Lit, Pixels};
-use manylights_method::{
-    CounterInfo, Dependencies, Error, ParameterInfo, Parameters, PassTime, Processor, Run,
-};
-use manylights_reflectance::{Materials, Tables};
+use manylights_interpolation::{InterpolatedRun, LightGrid, Pixels};
+use manylights_method::{CounterInfo, Error, ParameterInfo, Parameters, Run};
+use manylights_reflectance::Materials;
 use manylights_scene::AreaLight;
 
+pub use bake::LobeTables;
 pub use exact::Edges;
 pub use gather::{gather, linked_shader};
 pub use manylights_area_lights::Narrow;
@@ -190,69 +187,5 @@ impl Estimator for PolygonalLights {
             }
         };
         Ok(Box::new(InterpolatedRun::new(gather, grid)))
-    }
-}
-
-/// The grid of a picture.
-fn light_grid(
-    frame: &AreaLightFrame<'_>,
-    settings: &Settings,
-    how: Interpolation,
-) -> Result<LightGrid, Error> {
-    let AreaLightFrame { scene, on_gpu, pixels, ref lights, .. } = *frame;
-    let gpu = on_gpu.gpu();
-    let lit = Lit { gpu, scene, surfaces: (on_gpu.surfaces(), pixels), lights };
-    Ok(LightGrid::new(how, &lit, |grid, far| {
-        project(gpu, grid, settings, (how.scheme.reads_gradients(), how.loops), far)
-    })?)
-}
-
-/// The lobes of a scene's materials, on the adapter, and what a grid holds of the lights: the bake.
-pub struct LobeTables {
-    on_gpu: Vec<Buffer>,
-    count: u64,
-    grid: Option<LightGrid>,
-}
-
-impl SceneTables for LobeTables {
-    fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
-        let settings = Settings::new(parameters);
-        settings.narrow.check(frame.scene)?;
-        if settings.narrow == Narrow::Transformed && Materials::of_scene(frame.scene).kinds().narrow
-        {
-            return Err(Error::Declined(
-                "knows narrow lobes by their bands alone: --set narrow=keep".into(),
-            ));
-        }
-        let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
-        let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
-        let grid = Interpolation::new(parameters).map(|how| light_grid(frame, &settings, how));
-        Ok(Self { on_gpu, count: receivers.count(), grid: grid.transpose()? })
-    }
-
-    fn depends_on(parameters: &Parameters) -> Dependencies {
-        let tables = Dependencies { scene: true, amount: true, ..Dependencies::default() };
-        Interpolation::new(parameters).map_or(tables, |how| how.depends_on())
-    }
-
-    fn processor(parameters: &Parameters) -> Processor {
-        Interpolation::new(parameters).map_or(Processor::Cpu, |_| Processor::Gpu)
-    }
-
-    fn grow(&mut self, frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<(), Error> {
-        if let (Some(grid), Some(how)) = (&mut self.grid, Interpolation::new(parameters)) {
-            let mut next = light_grid(frame, &Settings::new(parameters), how)?;
-            next.follow(grid);
-            *grid = next;
-        }
-        Ok(())
-    }
-
-    fn pass_times(&self) -> Vec<PassTime> {
-        self.grid.as_ref().map_or(Vec::new(), LightGrid::pass_times)
-    }
-
-    fn count(&self) -> u64 {
-        self.count
     }
 }

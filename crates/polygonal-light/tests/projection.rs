@@ -25,7 +25,7 @@ fn lights(size: f32, distance: f32) -> Vec<AreaLight> {
         AreaLight::Triangle {
             corners: [corner, corner + size * along, corner + size * across],
             radiance: Vec3::new(1.0, 0.3 + (i % 7) as f32, 2.0),
-            two_sided: i % 2 == 0,
+            two_sided: i.is_multiple_of(2),
         }
     };
     (0..600).map(light).collect()

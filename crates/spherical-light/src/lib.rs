@@ -59,24 +59,21 @@
 //! - Tabulated coefficients: the papers do not say over what; here [`cap_table`].
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
+mod bake;
 pub mod cap_table;
 mod gather;
 pub mod oracle;
 mod params;
 mod projection;
 
-use manylights_area_lights::{
-    AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS, SceneTables,
-};
-use manylights_gpu::Buffer;
+use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS};
 use manylights_harmonics::even_count;
-use manylights_interpolation::{InterpolatedRun, Interpolation, LightGrid, Lit, Pixels, project};
-use manylights_method::{
-    CounterInfo, Dependencies, Error, ParameterInfo, Parameters, PassTime, Processor, Run,
-};
-use manylights_reflectance::{Materials, Tables};
+use manylights_interpolation::{InterpolatedRun, LightGrid, Pixels};
+use manylights_method::{CounterInfo, Error, ParameterInfo, Parameters, Run};
+use manylights_reflectance::Materials;
 use manylights_scene::AreaLight;
 
+pub use bake::LobeTables;
 pub use gather::{SphereLight, gather, linked_shader};
 pub use manylights_area_lights::Narrow;
 pub use manylights_reflectance::{CosineProduct, Diffuse};
@@ -128,106 +125,4 @@ impl Estimator for SphericalLights {
         let gather = AreaLightRun::new(on_gpu, gather, (records, count), products);
         Ok(Box::new(InterpolatedRun::new(Box::new(gather), grid)))
     }
-}
-
-/// The lobes of a scene's materials, and the coefficients of caps where they are tabulated, on the adapter, and
-/// what a grid holds of the lights: the bake.
-pub struct LobeTables {
-    on_gpu: Vec<Buffer>,
-    count: u64,
-    grid: Option<LightGrid>,
-}
-
-impl SceneTables for LobeTables {
-    fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
-        let settings = Settings::new(parameters);
-        let interpolation = Interpolation::new(parameters);
-        if interpolation.is_some() {
-            refuse_interpolated(&settings)?;
-        }
-        refuse_long_products(&settings)?;
-        refuse_transformed_products(&settings)?;
-        settings.narrow.check(frame.scene)?;
-        let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
-        let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
-        let of_caps = u64::from(settings.coefficients == Coefficients::Tabulated);
-        let grid = interpolation.map(|how| light_grid(frame, &settings, how)).transpose()?;
-        Ok(Self { on_gpu, count: receivers.count() + of_caps, grid })
-    }
-
-    fn depends_on(parameters: &Parameters) -> Dependencies {
-        let tables = Dependencies { scene: true, amount: true, ..Dependencies::default() };
-        Interpolation::new(parameters).map_or(tables, |how| how.depends_on())
-    }
-
-    fn processor(parameters: &Parameters) -> Processor {
-        Interpolation::new(parameters).map_or(Processor::Cpu, |_| Processor::Gpu)
-    }
-
-    fn grow(&mut self, frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<(), Error> {
-        if let (Some(grid), Some(how)) = (&mut self.grid, Interpolation::new(parameters)) {
-            let mut next = light_grid(frame, &Settings::new(parameters), how)?;
-            next.follow(grid);
-            *grid = next;
-        }
-        Ok(())
-    }
-
-    fn pass_times(&self) -> Vec<PassTime> {
-        self.grid.as_ref().map_or(Vec::new(), LightGrid::pass_times)
-    }
-
-    fn count(&self) -> u64 {
-        self.count
-    }
-}
-
-/// The grid of a picture.
-fn light_grid(
-    frame: &AreaLightFrame<'_>,
-    settings: &Settings,
-    how: Interpolation,
-) -> Result<LightGrid, Error> {
-    let AreaLightFrame { scene, on_gpu, pixels, ref lights, .. } = *frame;
-    let gpu = on_gpu.gpu();
-    let lit = Lit { gpu, scene, surfaces: (on_gpu.surfaces(), pixels), lights };
-    let shader = linked_projection(settings, how.scheme.reads_gradients(), how.loops)?;
-    Ok(LightGrid::new(how, &lit, |grid, far| {
-        project(gpu, grid, &shader, &far.iter().filter_map(SphereLight::of).collect::<Vec<_>>())
-    })?)
-}
-
-/// What a grid holds are analytic coefficients, which the whole lobe meets.
-fn refuse_interpolated(settings: &Settings) -> Result<(), Error> {
-    let set = match settings {
-        Settings { product: Product::Cosine(_), .. } => "product=full",
-        Settings { coefficients: Coefficients::Tabulated, .. } => "coefficients=analytic",
-        Settings { narrow: Narrow::Transformed, .. } => "narrow=decline, or keep",
-        _ => return Ok(()),
-    };
-    Err(Error::Declined(format!(
-        "interpolates analytic coefficients against whole lobes: --set {set}"
-    )))
-}
-
-/// Light by light alone a lobe is met as it is.
-fn refuse_transformed_products(settings: &Settings) -> Result<(), Error> {
-    if settings.narrow != Narrow::Transformed || settings.product == Product::Full {
-        return Ok(());
-    }
-    Err(Error::Declined("transforms narrow lobes light by light: --set product=full".into()))
-}
-
-fn refuse_long_products(settings: &Settings) -> Result<(), Error> {
-    let Settings { product: Product::Cosine(product), bands, .. } = *settings else {
-        return Ok(());
-    };
-    let most = product.most_bands();
-    if bands <= most {
-        return Ok(());
-    }
-    Err(Error::Declined(format!(
-        "multiplies at most {most} bands by the cosine's expansion, whose integrals grow as bands⁵: --set \
-         bands={most}, or product=4.6"
-    )))
 }
