@@ -18,6 +18,7 @@ const FLOORS: [(&str, u32); 10] = [
     ("paths", 2),
     ("virtual-lights", 3),
     ("area-lights", 3),
+    ("interpolation", 3),
     ("harness", 5),
 ];
 const METHOD_FLOOR: u32 = 4;
