@@ -10,10 +10,10 @@ use crate::Reading;
 /// What such runs count beside the lights.
 pub const COUNTERS: [CounterInfo; 2] = [
     CounterInfo {
-        name: "near lights",
+        name: "near_lights",
         help: "met at each pixel, since they are within two cells of the grid",
     },
-    CounterInfo { name: "pixels outside", help: "of the grid, for which its nearest point stands" },
+    CounterInfo { name: "pixels_outside", help: "of the grid, for which its nearest point stands" },
 ];
 
 /// The lights near the grid gathered, then the grid read.
