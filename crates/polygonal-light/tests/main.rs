@@ -7,6 +7,7 @@ mod forms;
 mod forms_hard_cases;
 mod gather;
 mod hard_cases;
+mod narrow;
 mod operations;
 mod scenes;
 mod shaders;
@@ -18,3 +19,6 @@ mod study;
 
 #[path = "../../scene/tests/common/tensor.rs"]
 mod tensor;
+
+#[path = "../../reflectance/examples/fit_transformed_cosines/triangles.rs"]
+mod triangles;

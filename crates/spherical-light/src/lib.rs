@@ -43,7 +43,7 @@
 //! the roughness is the one of the GGX lobe that its own data stand next to
 //! ([`Brdf::alpha`](manylights_scene::Brdf)), an estimate: it decides as well.
 //!
-//! With `narrow = transformed` such a lobe meets each light as a linearly transformed cosine
+//! With `narrow = ltc` such a lobe meets each light as a linearly transformed cosine
 //! ([`transformed_cosine`](manylights_reflectance::transformed_cosine)): of that lamp it misses below 2 % at roughness
 //! 0.1 up to 60°. The Lambertian lobe under it stays on harmonics. It needs Schlick's Fresnel term and `product = full`;
 //! kernels of scenes without narrow lobes do not change.
@@ -64,9 +64,11 @@ mod gather;
 pub mod oracle;
 mod params;
 
-use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
+use manylights_area_lights::{
+    AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables, TRANSFORMED_OPERATIONS,
+    cap_operations,
+};
 use manylights_gpu::Buffer;
-use manylights_harmonics::even_count;
 use manylights_method::{Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::AreaLight;
@@ -104,9 +106,11 @@ impl Estimator for SphericalLights {
         let shader = linked_shader(kinds, &settings)?;
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
-        let products = even_count(settings.bands) * kinds.channels();
+        let transformed = gather::transformed(kinds, &settings);
+        let operations = cap_operations(kinds, settings.bands)
+            + if transformed { TRANSFORMED_OPERATIONS } else { 0 };
         let records: Vec<_> = lights.iter().filter_map(SphereLight::of).collect();
-        Ok(Box::new(AreaLightRun::new(on_gpu, gather, (records, lights.len()), products)))
+        Ok(Box::new(AreaLightRun::new(on_gpu, gather, (records, lights.len()), operations)))
     }
 }
 
