@@ -57,6 +57,13 @@ fn renders(
     })
 }
 
+/// Of a built-in scene or of one of the repository's.
+fn stage(name: &str) -> Stage {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"));
+    let scene = if file.is_file() { file.to_str().expect("UTF-8") } else { name };
+    Stage::new(manylights_scene::load(scene, None).expect("a scene"), [8, 8])
+}
+
 /// Fails where a method renders the transport of a baseline's experiment and is not listed there. Returns
 /// the methods that it guards.
 fn guarded(folder: &str) -> BTreeSet<&'static str> {
@@ -69,8 +76,7 @@ fn guarded(folder: &str) -> BTreeSet<&'static str> {
         .filter(|transport: &Transport| transport.visibility().is_some())
         .expect("a transport whose visibility is a choice");
     let scenes = experiment["scenes"].as_array().expect("scenes").iter();
-    let stages: Vec<_> =
-        scenes.map(|name| Stage::builtin(name.as_str().expect("a name"), [8, 8])).collect();
+    let stages: Vec<_> = scenes.map(|name| stage(name.as_str().expect("a name"))).collect();
     let listed = listed(&experiment);
     let mut guarded = BTreeSet::new();
     for method in METHODS {

@@ -5,9 +5,12 @@
 ///   `signed_irradiance(m: vec4f, above: Above) -> f32` through a transform;
 /// - `disk_irradiance`: `cap_irradiance(cosine, sine) -> f32` of a sphere as it is, and
 ///   `transformed_cap(m: vec4f, w: vec3f, sine: f32) -> f32` through a transform;
+/// - `segment_irradiance`, `cone`: what it needs of cones;
 /// - `arc_tangent`: to 2e-7.
-pub const IRRADIANCE: [(&str, &str); 3] = [
+pub const IRRADIANCE: [(&str, &str); 5] = [
     ("triangle_irradiance", include_str!("shaders/triangle_irradiance.wesl")),
     ("disk_irradiance", include_str!("shaders/disk_irradiance.wesl")),
+    ("segment_irradiance", include_str!("shaders/segment_irradiance.wesl")),
+    ("cone", include_str!("shaders/cone.wesl")),
     ("arc_tangent", include_str!("shaders/arc_tangent.wesl")),
 ];

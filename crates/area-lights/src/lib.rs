@@ -5,6 +5,7 @@
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
 mod area_lights;
+mod cone;
 mod frame;
 mod gather;
 mod gather_shader;
@@ -12,6 +13,9 @@ mod irradiance;
 mod narrow;
 mod run;
 mod transformed_cap;
+mod transformed_segment;
+mod transformed_triangle;
+mod triangle_mean;
 
 /// Of how the lights of a scene reach the estimators and how their sums are shown: raised whenever the same
 /// estimator gives another picture.
@@ -23,5 +27,7 @@ pub use gather::{AreaGather, LightBatches};
 pub use gather_shader::{EstimatorShader, GatherShader};
 pub use irradiance::IRRADIANCE;
 pub use narrow::Narrow;
-pub use run::AreaLightRun;
+pub use run::{AreaLightRun, TRANSFORMED_OPERATIONS, cap_operations};
 pub use transformed_cap::transformed_cap;
+pub use transformed_triangle::transformed_triangle;
+pub use triangle_mean::triangle_mean;

@@ -1,6 +1,6 @@
 //! Surfaces that bands cannot see.
 
-use manylights_method::{ChoiceWord, Error, ParameterInfo, ParameterKind, Parameters};
+use manylights_method::Error;
 use manylights_reflectance::{NARROW, is_narrow};
 use manylights_scene::{Lobe, Scene};
 
@@ -17,32 +17,6 @@ pub enum Narrow {
 }
 
 impl Narrow {
-    /// The parameter of that name.
-    pub const PARAMETER: ParameterInfo = ParameterInfo {
-        name: "narrow",
-        formerly: None,
-        introduced: None,
-        help: "scenes with specular lobes that no affordable number of bands shows",
-        kind: ParameterKind::Choice {
-            default: "decline",
-            words: &[
-                ChoiceWord { word: "decline", help: "those of roughness below 0.3" },
-                ChoiceWord { word: "keep", help: "render them, with the error that they have" },
-                ChoiceWord {
-                    word: "transformed",
-                    help: "render those lobes by linearly transformed cosines",
-                },
-            ],
-        },
-    };
-
-    /// What the parameter says.
-    pub fn new(parameters: &Parameters) -> Self {
-        let words =
-            [("decline", Self::Decline), ("keep", Self::Keep), ("transformed", Self::Transformed)];
-        parameters.choice("narrow", &words)
-    }
-
     /// Refuses a scene that this is to decline.
     ///
     /// # Errors

@@ -4,14 +4,25 @@ use std::time::Instant;
 
 use bytemuck::Pod;
 use manylights_gpu::GpuFrame;
+use manylights_harmonics::even_count;
 use manylights_method::{Error, PassTime, PassTimes, Progress, Run};
 use manylights_metrics::RadianceImage;
+use manylights_reflectance::ReceiverKinds;
 
 use crate::gather::{AreaGather, LightBatches};
 
-/// Products of coefficients in one submission, light by pixel, where a batch has fewer; a batch is never
-/// cut. About a second on a slow processor, far below any watchdog on a fast one.
-const PRODUCTS_A_STEP: u64 = 1 << 31;
+/// Operations in one submission, where a batch has fewer; a batch is never cut. Below a second on a slow processor,
+/// far below any watchdog on a fast one.
+const OPERATIONS_A_STEP: u64 = 1 << 33;
+
+/// What a cap of light and a receiver's lobes in so many bands take, about.
+pub fn cap_operations(kinds: ReceiverKinds, bands: usize) -> usize {
+    // Legendre's polynomials, or the basis and a product for each lobe.
+    80 + if kinds.specular { even_count(bands) * (6 + 2 * kinds.channels()) } else { 5 * bands }
+}
+
+/// What a triangle and a narrow lobe as a transformed cosine take, or a sphere, about.
+pub const TRANSFORMED_OPERATIONS: usize = 600;
 
 /// What the shader reads of the lights is laid out in the first step, then gathered batch by batch.
 pub struct AreaLightRun<'a, R> {
@@ -26,17 +37,17 @@ pub struct AreaLightRun<'a, R> {
 }
 
 impl<'a, R: Pod> AreaLightRun<'a, R> {
-    /// Over the `records` of so many `lights`. `products` of coefficients are what a pixel and a record
-    /// take, about.
+    /// Over the `records` of so many `lights`. `operations` are what a pixel and a record take, about, as
+    /// [`manylights_gpu::operations`] counts them.
     pub fn new(
         frame: &'a GpuFrame,
         gather: AreaGather,
         (records, lights): (Vec<R>, usize),
-        products: usize,
+        operations: usize,
     ) -> Self {
         let [width, height] = frame.resolution().map(u64::from);
-        let products_a_batch = width * height * (gather.capacity() * products) as u64;
-        let batches_a_step = (PRODUCTS_A_STEP / products_a_batch.max(1)).max(1) as usize;
+        let a_batch = width * height * (gather.capacity() * operations) as u64;
+        let batches_a_step = (OPERATIONS_A_STEP / a_batch.max(1)).max(1) as usize;
         let (lights, times) = (lights as u64, PassTimes::default());
         Self { frame, gather, records, lights, batches_a_step, placed: None, next: 0, times }
     }

@@ -97,3 +97,19 @@ fn a_triangle_without_area_is_none() {
         assert_eq!(TriangleSighting::new(corners, true, [0.0, 0.0, 1.0]), None);
     }
 }
+
+/// In the plane and a rounding beside it no form knows less than that.
+#[test]
+fn forms_are_finite_in_the_plane() {
+    let [a, b, c] = TRIANGLE;
+    for i in 0..2000 {
+        let (s, t) = (f64::from(i % 50) * 0.1 - 2.0, f64::from(i / 50) * 0.1 - 2.0);
+        let point = [0, 1, 2].map(|k| a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]));
+        let seen = seen_from(point, true);
+        for form in TriangleForm::ALL {
+            let mut scales = [0.0; 9];
+            seen.scales(form, &mut scales);
+            assert!(scales.iter().all(|scale| scale.is_finite()), "{form:?} {point:?}: {scales:?}");
+        }
+    }
+}

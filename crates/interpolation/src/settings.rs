@@ -53,8 +53,7 @@ impl Settings {
     }
 
     /// Of those that are sorted. The more, the more often a number that is loaded is used, and the longer the
-    /// kernel: with the turns of a specular lobe it takes 5 s to compile for four pixels and 15 s for eight
-    /// (`results/throughput/interpolation.md`).
+    /// kernel, which holds the turns of each one's specular lobe (`results/throughput/interpolation.md`).
     pub(crate) fn pixels_a_lane(&self) -> usize {
         if self.kinds.specular { 6 } else { 12 }
     }

@@ -143,6 +143,47 @@ fn spheres_everywhere() {
     }
 }
 
+/// There the hemisphere about the normal is seen, as from beside the centre to within the turn of its direction.
+#[test]
+fn at_the_centre_of_a_sphere() {
+    let camera = Vec3::new(2.0, 3.0, 0.5);
+    let up = oblique(Vec3::new(0.1, 0.9, 0.3)).normalize();
+    for brdf in brdfs() {
+        let surfaces = [Vec3::ZERO, 1e-3 * up - 1e-6 * up.any_orthonormal_vector()]
+            .map(|place| SurfaceRecord::new(-place, up, brdf));
+        let light = sphere(Vec3::ZERO, 0.5);
+        let values = radiances(&surfaces, camera, light);
+        let truths = surfaces
+            .map(|surface| oracle::radiance(&surface, camera.as_dvec3(), &[light]).as_vec3());
+        for other in [values[1], truths[0], truths[1]] {
+            let error = (values[0] - other).abs().max_element();
+            assert!(error < 5e-3, "{brdf:?}: {values:?}, {truths:?}");
+        }
+    }
+}
+
+/// What f64 knows of spheres and triangles falls with the square of the distance, at any distance.
+#[test]
+fn the_oracle_of_far_lights() {
+    let camera = Vec3::new(0.3e13, 7e13, 0.2e13);
+    let toward = oblique(Vec3::new(0.4, 0.8, 0.2)).normalize();
+    let normal = (toward + 0.4 * Vec3::X).normalize();
+    for brdf in brdfs() {
+        for light in [triangle(UNIT, true), sphere(Vec3::ZERO, 0.5)] {
+            let at = |distance: f32| {
+                let surface = SurfaceRecord::new(-distance * toward, normal, brdf);
+                let covered = 1.0 / f64::from(distance).powi(2);
+                oracle::radiance(&surface, camera.as_dvec3(), &[light]) / covered
+            };
+            let limit = at(1e4);
+            for distance in [1e5, 1e6, 1e7] {
+                let error = ((at(distance) - limit) / limit).abs().max_element();
+                assert!(error < 1e-3, "{distance}, {brdf:?}, {light:?}: {error:e}");
+            }
+        }
+    }
+}
+
 /// Grazing views, where transforms are most askew.
 #[test]
 fn grazing_views() {

@@ -3,6 +3,7 @@
 mod common;
 mod gather;
 mod hard_cases;
+mod operations;
 mod scenes;
 mod truth;
 

@@ -32,17 +32,15 @@ pub struct LobeTables {
 impl SceneTables for LobeTables {
     fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
         let settings = Settings::new(parameters);
-        settings.narrow.check(frame.scene)?;
-        if settings.narrow == Narrow::Transformed && Materials::of_scene(frame.scene).kinds().narrow
-        {
-            return Err(Error::Declined(
-                "knows narrow lobes by their bands alone: --set narrow=keep".into(),
-            ));
+        let interpolation = Interpolation::new(parameters);
+        if interpolation.is_some() {
+            refuse_interpolated(&settings)?;
         }
+        settings.narrow.check(frame.scene)?;
         let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
         let on_gpu = crate::gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
-        let grid = Interpolation::new(parameters).map(|how| light_grid(frame, &settings, how));
-        Ok(Self { on_gpu, count: receivers.count(), grid: grid.transpose()? })
+        let grid = interpolation.map(|how| light_grid(frame, &settings, how)).transpose()?;
+        Ok(Self { on_gpu, count: receivers.count(), grid })
     }
 
     fn depends_on(parameters: &Parameters) -> Dependencies {
@@ -70,4 +68,16 @@ impl SceneTables for LobeTables {
     fn count(&self) -> u64 {
         self.count
     }
+}
+
+/// What a grid holds are coefficients, which meet lobes on harmonics alone.
+fn refuse_interpolated(settings: &Settings) -> Result<(), Error> {
+    if settings.narrow != Narrow::Transformed {
+        return Ok(());
+    }
+    Err(Error::Declined(
+        "interpolates coefficients against lobes on harmonics, with no ltc of narrow ones: --set \
+         narrow=decline, or keep"
+            .into(),
+    ))
 }

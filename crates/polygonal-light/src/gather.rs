@@ -1,18 +1,19 @@
 //! The kernel and what it reads.
 
 use glam::Vec3;
-use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader};
+use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader, IRRADIANCE};
 use manylights_gpu::{Buffer, Error, Gpu, PointBindings, SurfaceRecord, Table};
 use manylights_harmonics::wgsl::{self, Function, polygon};
 use manylights_harmonics::zonal::TriangleForm;
+use manylights_reflectance::transformed_cosine::{self, TRANSFORMED_LOBES};
 use manylights_reflectance::{
     Damping, Form, LOBES, MODULES, Materials, ReceiverKinds, SHAPES, Tables, diffuse, lobe_wgsl,
 };
 use manylights_scene::AreaLight;
 
 use crate::exact::ExactRecord;
-use crate::light_record::{CenterRecord, CornerRecord};
-use crate::{Approximation, Settings};
+use crate::light_record::{CenterRecord, CornerRecord, OutlinedRecord};
+use crate::{Approximation, Narrow, Settings};
 
 /// Triangles a batch.
 const CAPACITY: usize = 512;
@@ -22,15 +23,19 @@ pub(crate) enum Records {
     Exact(Vec<ExactRecord>),
     Centers(Vec<CenterRecord>),
     Corners(Vec<CornerRecord>),
+    Outlined(Vec<OutlinedRecord>),
 }
 
 impl Records {
     /// Lights without area are left out.
-    pub(crate) fn new(lights: &[AreaLight], approximation: Approximation) -> Self {
-        match approximation {
+    pub(crate) fn new(lights: &[AreaLight], kinds: ReceiverKinds, settings: &Settings) -> Self {
+        match settings.approximation {
             Approximation::Exact(edges) => Self::Exact(ExactRecord::all(lights, edges)),
             Approximation::Sphere(form) if needs_corners(form) => {
                 Self::Corners(lights.iter().filter_map(CornerRecord::new).collect())
+            }
+            Approximation::Sphere(_) if transformed(kinds, settings) => {
+                Self::Outlined(lights.iter().filter_map(OutlinedRecord::new).collect())
             }
             Approximation::Sphere(_) => {
                 Self::Centers(lights.iter().filter_map(CenterRecord::new).collect())
@@ -40,8 +45,13 @@ impl Records {
 }
 
 /// Whether a form needs the triangle's solid angle.
-fn needs_corners(form: TriangleForm) -> bool {
+pub(crate) fn needs_corners(form: TriangleForm) -> bool {
     matches!(form, TriangleForm::SolidAngle | TriangleForm::Scaled | TriangleForm::Point)
+}
+
+/// Whether narrow lobes are transformed cosines.
+pub(crate) fn transformed(kinds: ReceiverKinds, settings: &Settings) -> bool {
+    kinds.narrow && settings.narrow == Narrow::Transformed
 }
 
 /// The kernel for receivers of the given lobes.
@@ -65,17 +75,24 @@ pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<Gather
     let own = [
         ("triangle", include_str!("shaders/triangle.wesl")),
         ("solid_angle", include_str!("shaders/solid_angle.wesl")),
+        ("narrow", include_str!("shaders/narrow.wesl")),
+        ("transformed_cosine", &*transformed_cosine::module()),
     ];
+    let of_receivers = if transformed(kinds, settings) {
+        kinds.transformed_features()
+    } else {
+        kinds.features(Form::Full)
+    };
     let features = [
         // Kernels read the tables of harmonics alone.
         ("measured", false),
     ];
     EstimatorShader {
         estimator,
-        modules: &[&made[..], &own, &MODULES].concat(),
-        features: &[&features[..], &form_features(form), &kinds.features(Form::Full)].concat(),
+        modules: &[&made[..], &own, &IRRADIANCE, &MODULES].concat(),
+        features: &[&features[..], &form_features(form), &of_receivers].concat(),
         capacity: CAPACITY,
-        bindings: PointBindings { settings: &[], tables: table_names(kinds) },
+        bindings: PointBindings { settings: &[], tables: table_names(kinds, settings) },
     }
     .link()
 }
@@ -117,9 +134,13 @@ fn polygon_module(kinds: ReceiverKinds, bands: usize) -> String {
 }
 
 /// Those of [`tables`].
-fn table_names(kinds: ReceiverKinds) -> Vec<Table> {
+fn table_names(kinds: ReceiverKinds, settings: &Settings) -> Vec<Table> {
     let pairs = [SHAPES, LOBES].map(|name| Table { name, element: "vec2f" });
-    if kinds.specular { pairs.to_vec() } else { Vec::new() }
+    let mut names = if kinds.specular { pairs.to_vec() } else { Vec::new() };
+    if transformed(kinds, settings) {
+        names.push(Table { name: TRANSFORMED_LOBES, element: "vec4f" });
+    }
+    names
 }
 
 /// What kernels read, on the adapter, as [`table_names`] has it.
@@ -137,7 +158,11 @@ pub(crate) fn tables(
     }
     let lobes = materials.lobe_records(tables, settings.bands, Form::Full, Damping::None);
     let shapes = gpu.storage("shapes", &materials.shape_records())?;
-    Ok(vec![shapes, gpu.storage("lobes", &lobes)?])
+    let mut on_gpu = vec![shapes, gpu.storage("lobes", &lobes)?];
+    if transformed(materials.kinds(), settings) {
+        on_gpu.push(gpu.storage("transformed lobes", &materials.transformed_records())?);
+    }
+    Ok(on_gpu)
 }
 
 /// Radiance of given surfaces under given lights, by the adapter's kernels: what a picture does, for hard
@@ -157,10 +182,11 @@ pub fn gather(
     let shader = linked_shader(materials.kinds(), settings)?;
     let on_gpu = gpu.storage("surfaces", surfaces)?;
     let gather = AreaGather::new(gpu, (&on_gpu, surfaces.len() as u32), camera, &shader, tables)?;
-    let batches = match Records::new(lights, settings.approximation) {
+    let batches = match Records::new(lights, materials.kinds(), settings) {
         Records::Exact(records) => gather.batches(&records)?,
         Records::Centers(records) => gather.batches(&records)?,
         Records::Corners(records) => gather.batches(&records)?,
+        Records::Outlined(records) => gather.batches(&records)?,
     };
     gather.add(&batches, 0..batches.count())?;
     gather.radiance()

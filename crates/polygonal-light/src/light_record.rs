@@ -32,6 +32,19 @@ pub(crate) struct CornerRecord {
     more_padding: f32,
 }
 
+/// The first of them, for receivers that need the corners as well: 96 bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct OutlinedRecord {
+    center: CenterRecord,
+    corner: Vec3,
+    padding: f32,
+    first_edge: Vec3,
+    more_padding: f32,
+    second_edge: Vec3,
+    last_padding: f32,
+}
+
 /// A triangle with an area, in f64.
 struct Triangle {
     corners: [DVec3; 3],
@@ -87,6 +100,22 @@ impl CornerRecord {
             padding: 0.0,
             radiance: triangle.radiance,
             more_padding: 0.0,
+        })
+    }
+}
+
+impl OutlinedRecord {
+    /// `None` of a light that is no triangle or has no area.
+    pub(crate) fn new(light: &AreaLight) -> Option<Self> {
+        let [a, b, c] = Triangle::new(light)?.corners;
+        Some(Self {
+            center: CenterRecord::new(light)?,
+            corner: a.as_vec3(),
+            padding: 0.0,
+            first_edge: (b - a).as_vec3(),
+            more_padding: 0.0,
+            second_edge: (c - a).as_vec3(),
+            last_padding: 0.0,
         })
     }
 }

@@ -1,8 +1,10 @@
 //! What exact triangles cost, counted in the text of their kernel.
 
+use manylights_area_lights::{TRANSFORMED_OPERATIONS, cap_operations};
 use manylights_gpu::{Error, Operations, operations};
 use manylights_reflectance::ReceiverKinds;
 
+use crate::gather::transformed;
 use crate::{Approximation, Edges, Settings, linked_shader};
 
 /// Of one receiver.
@@ -36,4 +38,15 @@ pub fn exact_operations(
         edge: of("near", 1)?,
         far: of("far", 7)?,
     })
+}
+
+/// What a pixel and a record take, about: runs are cut by it.
+pub fn record_operations(kinds: ReceiverKinds, settings: &Settings) -> usize {
+    let sphere = cap_operations(kinds, settings.bands);
+    let of_bands = match settings.approximation {
+        // What does not grow with the bands is less.
+        Approximation::Exact(_) => 9 * sphere - 400,
+        Approximation::Sphere(_) => sphere,
+    };
+    of_bands + if transformed(kinds, settings) { TRANSFORMED_OPERATIONS } else { 0 }
 }

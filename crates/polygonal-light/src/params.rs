@@ -69,13 +69,32 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
             ],
         },
     },
-    Narrow::PARAMETER,
+    ParameterInfo {
+        name: "narrow",
+        formerly: None,
+        introduced: None,
+        help: "scenes with specular lobes that no affordable number of bands shows",
+        kind: ParameterKind::Choice {
+            default: "decline",
+            words: &[
+                ChoiceWord { word: "decline", help: "those of roughness below 0.3" },
+                ChoiceWord { word: "keep", help: "render them, with the error that they have" },
+                ChoiceWord {
+                    word: "ltc",
+                    help: "render those lobes by linearly transformed cosines",
+                },
+            ],
+        },
+    },
     Interpolation::SCHEME,
     Interpolation::GRID,
     Interpolation::BOUNDS,
     Interpolation::LOOPS,
     Interpolation::READING,
 ];
+
+const NARROW: [(&str, Narrow); 3] =
+    [("decline", Narrow::Decline), ("keep", Narrow::Keep), ("ltc", Narrow::Transformed)];
 
 const EDGES: [(&str, Edges); 2] = [("own", Edges::Own), ("shared", Edges::Shared)];
 
@@ -128,7 +147,7 @@ impl Settings {
         Self {
             bands: parameters.count(BANDS) as usize,
             approximation: parameters.choice("approximation", &approximations),
-            narrow: Narrow::new(parameters),
+            narrow: parameters.choice("narrow", &NARROW),
         }
     }
 }
@@ -154,6 +173,8 @@ mod tests {
         for (word, approximation) in SPHERES {
             assert_eq!(set("approximation", word), Settings { approximation, ..plain });
         }
-        assert_eq!(set("narrow", "keep"), Settings { narrow: Narrow::Keep, ..plain });
+        for (word, narrow) in NARROW {
+            assert_eq!(set("narrow", word), Settings { narrow, ..plain });
+        }
     }
 }

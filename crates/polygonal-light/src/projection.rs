@@ -11,8 +11,8 @@ use manylights_interpolation::{
 };
 use manylights_scene::AreaLight;
 
-use crate::gather::{Records, form_features, points_module};
-use crate::light_record::CornerRecord;
+use crate::gather::{form_features, needs_corners, points_module};
+use crate::light_record::{CenterRecord, CornerRecord};
 use crate::{Approximation, Settings};
 
 /// Triangles a batch.
@@ -45,11 +45,12 @@ pub fn project(
         return project_exactly(gpu, grid, (bands, gradients), lights);
     };
     let shader = linked_projection(form, bands, (gradients, loops))?;
-    match Records::new(lights, settings.approximation) {
-        Records::Exact(records) => interpolation::project(gpu, grid, &shader, &records),
-        Records::Centers(records) => interpolation::project(gpu, grid, &shader, &records),
-        Records::Corners(records) => interpolation::project(gpu, grid, &shader, &records),
+    if needs_corners(form) {
+        let records: Vec<_> = lights.iter().filter_map(CornerRecord::new).collect();
+        return interpolation::project(gpu, grid, &shader, &records);
     }
+    let records: Vec<_> = lights.iter().filter_map(CenterRecord::new).collect();
+    interpolation::project(gpu, grid, &shader, &records)
 }
 
 /// The projection of spheres in the stead of triangles.

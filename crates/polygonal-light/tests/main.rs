@@ -8,6 +8,7 @@ mod forms_hard_cases;
 mod gather;
 mod hard_cases;
 mod interpolated;
+mod narrow;
 mod operations;
 mod projection;
 mod scenes;
@@ -20,3 +21,6 @@ mod study;
 
 #[path = "../../scene/tests/common/tensor.rs"]
 mod tensor;
+
+#[path = "../../reflectance/examples/fit_transformed_cosines/triangles.rs"]
+mod triangles;

@@ -3,7 +3,9 @@
 use crate::common::{exact, settings};
 use manylights_gpu::operations;
 use manylights_harmonics::wgsl::polygon;
-use manylights_polygonal_light::{Edges, Settings, TriangleForm, exact_operations, linked_shader};
+use manylights_polygonal_light::{
+    Edges, Narrow, Settings, TriangleForm, exact_operations, linked_shader, record_operations,
+};
 use manylights_reflectance::ReceiverKinds;
 
 /// Simple and special operations of a light: near triangle, edge, far triangle; sphere.
@@ -57,5 +59,41 @@ fn directions_of_the_plane_of_symmetry_are_half_as_many() {
         let sums = (2 * bands - 1) as f64 * (direction + 6.0 * (bands - 1) as f64);
         println!("{bands} bands, an edge: {grey} grey, {colored} coloured, {sums:.0} by sums");
         assert!(sums > 1.8 * grey, "{bands} bands: {sums} for {grey}");
+    }
+}
+
+/// Submissions are cut by what a record is said to take.
+#[test]
+fn records_take_what_they_are_said_to() {
+    let grey = ReceiverKinds { specular: true, narrow: true, ..ReceiverKinds::default() };
+    for kinds in [ReceiverKinds::default(), grey, ReceiverKinds { colored: true, ..grey }] {
+        for bands in [1, 2, 5, 9, 15] {
+            for narrow in [Narrow::Keep, Narrow::Transformed] {
+                let main = Settings { bands, narrow, ..settings(TriangleForm::Main) };
+                let exact = Settings { bands, narrow, ..exact(Edges::Own) };
+                let of = |settings, function: &str| {
+                    let wgsl = linked_shader(kinds, settings).expect("it links").wgsl;
+                    let found = operations(&wgsl, &format!("package_{function}"), 3);
+                    let found = found.expect("a function");
+                    found.simple + found.special
+                };
+                let specular = if kinds.narrow && narrow == Narrow::Transformed {
+                    of(&exact, "narrow__1narrow_product")
+                } else {
+                    0
+                };
+                let near = of(&exact, "estimator_near") + specular;
+                for (settings, found) in [(main, of(&main, "estimator__1add_light")), (exact, near)]
+                {
+                    let said = record_operations(kinds, &settings);
+                    println!("{bands} bands, {:?}: {found} of {said}", settings.approximation);
+                    let ratio = found as f64 / said as f64;
+                    assert!(
+                        (0.6..1.6).contains(&ratio),
+                        "{kinds:?} {settings:?}: {found} of {said}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -77,6 +77,11 @@ impl Receiver {
         }
     }
 
+    /// Its Lambertian lobe alone.
+    pub fn lambertian(self) -> Self {
+        Self { specular: Specular::None, ..self }
+    }
+
     /// The double product of both lobes with light of these coefficients in [`Self::frame`].
     ///
     /// # Panics

@@ -100,7 +100,7 @@ fn full(kinds: ReceiverKinds, settings: &Settings) -> Estimator {
 }
 
 /// Whether narrow lobes are transformed cosines.
-fn transformed(kinds: ReceiverKinds, settings: &Settings) -> bool {
+pub(crate) fn transformed(kinds: ReceiverKinds, settings: &Settings) -> bool {
     kinds.narrow && settings.narrow == Narrow::Transformed
 }
 

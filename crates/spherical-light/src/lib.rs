@@ -43,7 +43,7 @@
 //! the roughness is the one of the GGX lobe that its own data stand next to
 //! ([`Brdf::alpha`](manylights_scene::Brdf)), an estimate: it decides as well.
 //!
-//! With `narrow = transformed` such a lobe meets each light as a linearly transformed cosine
+//! With `narrow = ltc` such a lobe meets each light as a linearly transformed cosine
 //! ([`transformed_cosine`](manylights_reflectance::transformed_cosine)): of that lamp it misses below 2 % at roughness
 //! 0.1 up to 60°. The Lambertian lobe under it stays on harmonics. It needs Schlick's Fresnel term and `product = full`;
 //! kernels of scenes without narrow lobes do not change.
@@ -66,8 +66,10 @@ pub mod oracle;
 mod params;
 mod projection;
 
-use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS};
-use manylights_harmonics::even_count;
+use manylights_area_lights::{
+    AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS, TRANSFORMED_OPERATIONS,
+    cap_operations,
+};
 use manylights_interpolation::{InterpolatedRun, LightGrid, Pixels};
 use manylights_method::{CounterInfo, Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::Materials;
@@ -110,7 +112,6 @@ impl Estimator for SphericalLights {
         let shader = linked_shader(kinds, &settings)?;
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
-        let products = even_count(settings.bands) * kinds.channels();
         let grid = tables.grid.as_ref().map(|grid| {
             let results = gather.results();
             let (surfaces, count) = surfaces;
@@ -121,8 +122,10 @@ impl Estimator for SphericalLights {
         let grid = grid.transpose()?;
         let gathered = tables.grid.as_ref().map_or(&lights[..], LightGrid::near);
         let records: Vec<_> = gathered.iter().filter_map(SphereLight::of).collect();
-        let count = records.len();
-        let gather = AreaLightRun::new(on_gpu, gather, (records, count), products);
+        let transformed = gather::transformed(kinds, &settings);
+        let operations = cap_operations(kinds, settings.bands)
+            + if transformed { TRANSFORMED_OPERATIONS } else { 0 };
+        let gather = AreaLightRun::new(on_gpu, gather, (records, gathered.len()), operations);
         Ok(Box::new(InterpolatedRun::new(Box::new(gather), grid)))
     }
 }

@@ -68,7 +68,7 @@ fn pictures_and_what_is_declined() {
     let narrow = scene.materials.iter().position(|material| material.roughness == 0.3);
     let narrow = narrow.expect("the lacquer of trio");
     scene.materials[narrow].roughness = 0.15;
-    let texts = [("narrow", "transformed")];
+    let texts = [("narrow", "ltc")];
     let (image, surfaces) = render(&scene, [24, 18], &texts, DIRECT).expect("a picture");
     let (lights, eye) = (spheres(&scene), scene.cameras[0].position.as_dvec3());
     let truth =
@@ -79,7 +79,7 @@ fn pictures_and_what_is_declined() {
         let error = (Vec3::from(pixel).as_dvec3() - truth).abs().max_element() / peak;
         assert!(error < 2e-5, "{pixel:?} for {truth}: {error:e}");
     }
-    declined(&scene, &[("narrow", "transformed"), ("product", "4.6")], "product=full");
+    declined(&scene, &[("narrow", "ltc"), ("product", "4.6")], "product=full");
     scene.materials[narrow].given = Some(dielectric(0.15));
     declined(&scene, &texts, "other than GGX with Schlick's Fresnel term");
 }

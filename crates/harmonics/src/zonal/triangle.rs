@@ -83,7 +83,9 @@ impl<R: Real> TriangleSighting<R> {
         let shines = two_sided || side > R::zero();
         let lit = if shines { side } else { R::zero() };
         let normal = across.map(|c| lit * c / twice_area);
+        // Next to the plane the sign of the quotient may be another one than that of the product.
         let facing = if distance > R::zero() { -dot(normal, direction) } else { R::zero() };
+        let facing = facing.max(R::zero());
         let turn = |axis: usize| (normal[axis] + facing * direction[axis]) / distance;
         let facing_gradient = if facing > R::zero() { [0, 1, 2].map(turn) } else { [R::zero(); 3] };
         // The sign is positive where corners run clockwise as the point sees them.

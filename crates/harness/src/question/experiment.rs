@@ -287,6 +287,25 @@ seeds = [1]
         parse(&GOOD.replace(from, to), Profile::Quick, METHODS).expect_err(to)
     }
 
+    /// Whatever time bounds the others, one without an amount of work is one without a budget.
+    #[test]
+    fn the_baseline_has_no_amount_of_work() {
+        for word in ["count", "time", "build_time", "total_time"] {
+            let methods = format!("\"ltc\"\nbudget = \"{word}\"");
+            let text = GOOD
+                .replacen("\"reference\"", &methods, 1)
+                .replace("id = \"reference\"", "id = \"ltc\"")
+                .replace("parameters = { samples = [1, 4, 16] }\n", "")
+                .replace("parameters = { samples = 4 }\n", "")
+                .replace("seeds", "times = [1.0, 2.0]\nseeds");
+            let experiment = parse(&text, Profile::Quick, METHODS).expect(word);
+            assert_eq!(experiment.variants.len(), 1, "{word}");
+            let twice = text.replace("[baseline]", "[[methods]]\nid = \"ltc\"\n[baseline]");
+            let refusal = parse(&twice, Profile::Quick, METHODS).expect_err(word);
+            assert!(refusal.contains("listed twice"), "{refusal}");
+        }
+    }
+
     #[test]
     fn sweeps_are_written_out_and_the_baseline_is_found() {
         let experiment = parse(GOOD, Profile::Quick, METHODS).expect("good");

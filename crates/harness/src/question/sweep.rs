@@ -76,6 +76,8 @@ impl MethodEntry {
         let names = method.parameters().iter().map(|info| info.name);
         let swept = names.into_iter().find(|name| is_list(name));
         let swept = swept.or(method.cost().map(|cost| cost.parameter));
+        // Where nothing is searched no time is bounded: such a variant is one without a budget.
+        let bounded = self.budget.bounded().filter(|_| method.cost().is_some()).unwrap_or_default();
         let mut variants = Vec::new();
         for visibility in self.visibilities(method.visibility())? {
             for row in &grid {
@@ -83,7 +85,6 @@ impl MethodEntry {
                 let parameters = settings::parameters(method, pairs)?;
                 variants.extend(budgets.iter().map(|&budget| {
                     let parameters = parameters.clone();
-                    let bounded = self.budget.bounded().unwrap_or_default();
                     Variant { method, place, parameters, swept, visibility, budget, bounded }
                 }));
             }

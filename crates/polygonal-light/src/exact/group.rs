@@ -27,7 +27,12 @@ pub(super) fn bits(corner: Vec3) -> [u32; 3] {
 
 /// In the order of their first triangles.
 pub(super) fn all(faces: &[Face]) -> Vec<Group> {
-    let neighbours = neighbours(faces);
+    let mut by_edge = by_edge(faces);
+    let normals: Vec<_> = faces.iter().map(|face| face.across().normalize()).collect();
+    // Shine to the same sides and are not turned against each other.
+    let alike = |one: usize, other: usize| {
+        faces[one].two_sided == faces[other].two_sided && normals[one].dot(normals[other]) >= ALIKE
+    };
     let mut taken = vec![false; faces.len()];
     let mut groups = Vec::new();
     for first in 0..faces.len() {
@@ -36,11 +41,18 @@ pub(super) fn all(faces: &[Face]) -> Vec<Group> {
         }
         taken[first] = true;
         let (mut found, mut next) = (vec![first], 0);
-        while next < found.len() {
-            for &other in &neighbours[found[next]] {
-                if !std::mem::replace(&mut taken[other], true) {
-                    found.push(other);
-                }
+        while let Some(&face) = found.get(next) {
+            for (from, to) in edges(&faces[face]) {
+                // Those that share the edge have it in the other direction.
+                let Some(others) = by_edge.get_mut(&(bits(to), bits(from))) else { continue };
+                // Who is taken need not be met again: many may share an edge.
+                others.retain(|&other| {
+                    let joins = alike(face, other);
+                    if joins && !std::mem::replace(&mut taken[other], true) {
+                        found.push(other);
+                    }
+                    !joins
+                });
             }
             next += 1;
         }
@@ -58,39 +70,26 @@ fn in_one_plane(faces: Vec<Face>) -> Vec<Group> {
     let largest = corners().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
     // Corners in f32, and what made them.
     let tolerance = 8.0 * f64::from(f32::EPSILON) * largest;
-    let unit = normal.normalize_or_zero();
     let middle = corners().sum::<DVec3>() / (3 * faces.len()) as f64;
-    let is_flat = corners().all(|corner| (corner - middle).dot(unit).abs() <= tolerance);
-    if is_flat {
+    let is_near =
+        |unit: DVec3| corners().all(|corner| (corner - middle).dot(unit).abs() <= tolerance);
+    // Areas of a closed surface sum to none.
+    if normal.try_normalize().is_some_and(is_near) {
         return vec![Group { faces, normal, tolerance }];
     }
     let alone = |face: Face| Group { normal: face.across(), faces: vec![face], tolerance };
     faces.into_iter().map(alone).collect()
 }
 
-/// Of each triangle those that share an edge with it, in the other direction, that shine to the same sides and
-/// are not turned against it.
-fn neighbours(faces: &[Face]) -> Vec<Vec<usize>> {
+/// The triangles of each edge, in its direction.
+fn by_edge(faces: &[Face]) -> HashMap<([u32; 3], [u32; 3]), Vec<usize>> {
     let mut by_edge: HashMap<_, Vec<usize>> = HashMap::new();
     for (index, face) in faces.iter().enumerate() {
         for (from, to) in edges(face) {
             by_edge.entry((bits(from), bits(to))).or_default().push(index);
         }
     }
-    let normals: Vec<_> = faces.iter().map(|face| face.across().normalize()).collect();
-    let alike = |one: usize, other: usize| {
-        faces[one].two_sided == faces[other].two_sided && normals[one].dot(normals[other]) >= ALIKE
-    };
-    let of_face = |(index, face): (usize, &Face)| {
-        edges(face)
-            .into_iter()
-            .filter_map(|(from, to)| by_edge.get(&(bits(to), bits(from))))
-            .flatten()
-            .copied()
-            .filter(|&other| alike(index, other))
-            .collect()
-    };
-    faces.iter().enumerate().map(of_face).collect()
+    by_edge
 }
 
 /// Around a triangle.

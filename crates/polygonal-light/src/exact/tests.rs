@@ -3,6 +3,7 @@
 use glam::{DVec3, Quat, Vec2, Vec3};
 use manylights_scene::AreaLight;
 
+use super::face::Face;
 use super::{Edges, ExactRecord, Kind};
 
 /// A square of so many cells in each direction, two triangles each, of the radiances that its cells have; lying
@@ -109,4 +110,41 @@ fn sides_planes_and_curved_surfaces_do_not_mix() {
     assert_eq!(counts(&sheet, Edges::Shared)[0], 200);
     // Nothing of no area.
     assert_eq!(counts(&[triangle([a, b, 0.5 * b])], Edges::Shared), [0, 0, 0]);
+}
+
+/// The areas of a closed surface sum to exactly nothing where its corners lie so: it has no normal.
+#[test]
+fn a_closed_tube_is_no_plane() {
+    const SIDES: u32 = 3000;
+    let place = |i: u32, y: f32| {
+        // Both halves alike, of so few digits that all sums are exact.
+        let side = if i % SIDES < SIDES / 2 { 1.0 } else { -1.0 };
+        let angle = std::f32::consts::TAU * (i % (SIDES / 2)) as f32 / SIDES as f32;
+        let digits = (1 << 20) as f32;
+        let [x, z] = [angle.cos(), angle.sin()].map(|c| side * (c * digits).round() / digits);
+        Vec3::new(x, y, z)
+    };
+    let triangle = |corners| AreaLight::Triangle { corners, radiance: Vec3::ONE, two_sided: false };
+    let tube: Vec<_> = (0..SIDES)
+        .flat_map(|i| {
+            let [a, b] = [place(i, 0.0), place(i + 1, 0.0)];
+            let [c, d] = [place(i + 1, 1.0), place(i, 1.0)];
+            [triangle([a, b, c]), triangle([a, c, d])]
+        })
+        .collect();
+    let normals = tube.iter().filter_map(Face::new).map(|face| face.across());
+    assert_eq!(normals.sum::<DVec3>(), DVec3::ZERO);
+    assert_eq!(counts(&tube, Edges::Shared), [2 * SIDES as usize, 0, 0]);
+}
+
+/// Pairs of them would not fit in any memory.
+#[test]
+fn many_triangles_share_one_edge() {
+    const COPIES: usize = 1 << 18;
+    let square = square(1, |_, _| Some(Vec3::ONE));
+    let lights: Vec<_> = square.iter().flat_map(|light| [*light].repeat(COPIES)).collect();
+    assert_eq!(counts(&lights, Edges::Shared), [0, 4, 2 * COPIES]);
+    assert!(ExactRecord::all(&lights, Edges::Shared)[..4].iter().all(|edge| {
+        edge.kind == Kind::Edge as u32 && edge.radiance.abs() == Vec3::splat(COPIES as f32)
+    }));
 }

@@ -38,6 +38,17 @@ pub(crate) fn metal(roughness: f32) -> Brdf {
     Brdf { diffuse: Vec3::ZERO, f0: Vec3::new(0.9, 0.7, 0.4), ..glossy(roughness) }
 }
 
+/// The exact Fresnel term, as fitted materials have it.
+pub(crate) fn dielectric(roughness: f32) -> Brdf {
+    let f0 = Vec3::new(0.05, 0.04, 0.03);
+    Brdf { f0, lobe: Lobe::Dielectric { index: 1.43 }, ..glossy(roughness) }
+}
+
+/// A specular lobe without its Fresnel term.
+pub(crate) fn mirror_like(roughness: f32) -> Brdf {
+    Brdf { diffuse: Vec3::ZERO, f0: Vec3::ONE, ..glossy(roughness) }
+}
+
 pub(crate) fn surface(position: Vec3, normal: Vec3, brdf: Brdf) -> SurfaceRecord {
     SurfaceRecord::new(position, normal, brdf)
 }

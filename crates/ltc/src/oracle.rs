@@ -1,11 +1,9 @@
 //! The same estimator in f64 on the CPU.
 
-mod triangle;
-
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use manylights_area_lights::transformed_cap;
+use manylights_area_lights::{transformed_cap, transformed_triangle};
 use manylights_gpu::SurfaceRecord;
 use manylights_paths::closed_form::sphere_irradiance;
 use manylights_reflectance::transformed_cosine::{Layered, TransformedCosine, of_surface};
@@ -53,7 +51,7 @@ pub fn radiance(surface: &SurfaceRecord, camera: DVec3, lights: &[LightRecord]) 
             }
             let edges = [light.first, light.second].map(|edge| corner + edge.as_dvec3());
             let corners = [corner, edges[0], edges[1]].map(local);
-            triangle::irradiance(cosine, corners, light.kind() == Kind::TwoSided)
+            transformed_triangle(cosine, corners, light.kind() == Kind::TwoSided)
         };
         let mut sum = DVec3::ZERO;
         if cosine_share != 0.0 {
