@@ -2,7 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader, IRRADIANCE};
+use manylights_area_lights::{
+    AreaGather, Edges, EstimatorShader, GatherShader, IRRADIANCE, merged,
+};
 use manylights_gpu::{Buffer, Error, Gpu, PointBindings, Table};
 use manylights_reflectance::transformed_cosine::{self, TRANSFORMED_LOBES};
 use manylights_reflectance::{MODULES, Materials, ReceiverKinds, SHAPES};
@@ -68,6 +70,14 @@ impl LightRecord {
         }
     }
 
+    /// Of all lights, or of the fewest that shine as their triangles do.
+    pub fn all(lights: &[AreaLight], edges: Edges) -> Vec<Self> {
+        match edges {
+            Edges::Own => lights.iter().map(Self::new).collect(),
+            Edges::Shared => merged(lights).iter().map(Self::new).collect(),
+        }
+    }
+
     /// What it is of.
     pub fn kind(&self) -> Kind {
         KINDS[self.kind as usize]
@@ -84,10 +94,10 @@ pub struct LightKinds {
 }
 
 impl LightKinds {
-    /// Of these.
+    /// Of these; of none, as where all are black, triangles, so that there is a kernel.
     pub fn of(lights: &[LightRecord]) -> Self {
         let spheres = lights.iter().filter(|light| light.kind() == Kind::Sphere).count();
-        Self { triangles: spheres < lights.len(), spheres: spheres > 0 }
+        Self { triangles: spheres == 0 || spheres < lights.len(), spheres: spheres > 0 }
     }
 }
 

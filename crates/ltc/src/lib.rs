@@ -24,15 +24,17 @@
 //! roughness 0.4 up to 60° and by tens of per cent at grazing view (`tests/truth.rs`, results/ltc/fit.md).
 //!
 //! # Operations
-//! Per light and receiver, counted in the kernel's text ([`light_operations`], `tests/operations.rs`), as if the horizon
-//! cut each triangle into a quadrilateral and an ellipse's axis took three steps:
+//! Per light and receiver, counted in the kernel's text ([`light_operations`], `tests/operations.rs`), as if the surface's
+//! horizon cut each triangle into a quadrilateral, that of the transform none, and an ellipse's axis took three
+//! steps:
 //!
 //! | receiver | near triangle | far triangle | sphere | sphere on the horizon | receiver, once a batch |
 //! |---|---|---|---|---|---|
-//! | Lambertian | 641 | 520 | 130 | 130 | 70 |
-//! | with a specular lobe | 1157 | 915 | 922 | 1792 | 223 |
+//! | Lambertian | 589 | 520 | 130 | 130 | 70 |
+//! | with a specular lobe | 1053 | 915 | 922 | 1792 | 223 |
 //!
-//! Harmonics of nine bands take 429 for a sphere and 3692 for a near triangle.
+//! Harmonics of nine bands take 429 for a sphere and 3692 for a near triangle. Equal triangles of one plane with a
+//! convex outline count as the fewest that cover it ([`Edges`]): a square of 648 triangles as two.
 //!
 //! # Declined
 //! Measured lobes and the exact Fresnel term, which the fit does not know.
@@ -51,7 +53,9 @@ mod gather;
 mod operations;
 pub mod oracle;
 
-use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
+use manylights_area_lights::{
+    AreaGather, AreaLightFrame, AreaLightRun, Edges, Estimator, SceneTables,
+};
 use manylights_gpu::Buffer;
 use manylights_method::{Error, ParameterInfo, Parameters, Run};
 use manylights_reflectance::Materials;
@@ -61,7 +65,7 @@ pub use gather::{Kind, LightKinds, LightRecord, gather, linked_shader};
 pub use operations::{LightOperations, STEPS, light_operations};
 
 /// Of a pixel and a light, about ([`light_operations`]).
-pub const OPERATIONS: usize = 1200;
+pub const OPERATIONS: usize = 1100;
 
 /// The method is `AreaLights(Ltc)`.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +75,7 @@ impl Estimator for Ltc {
     const ID: &'static str = "ltc";
     const TITLE: &'static str = "area lights by linearly transformed cosines (Heitz et al. 2016)";
     const VERSION: u32 = 1;
-    const PARAMETERS: &'static [ParameterInfo] = &[];
+    const PARAMETERS: &'static [ParameterInfo] = &[Edges::PARAMETER];
     const TAKES: &'static str = "triangles and spheres";
     type Tables = LobeTables;
 
@@ -81,11 +85,11 @@ impl Estimator for Ltc {
 
     fn start<'a>(
         frame: AreaLightFrame<'a>,
-        _: &Parameters,
+        parameters: &Parameters,
         tables: &LobeTables,
     ) -> Result<Box<dyn Run + 'a>, Error> {
         let AreaLightFrame { scene, eye, on_gpu, pixels, lights } = frame;
-        let records: Vec<_> = lights.iter().map(LightRecord::new).collect();
+        let records = LightRecord::all(&lights, Edges::new(parameters));
         let kinds = Materials::of_scene(scene).kinds();
         let shader = linked_shader(kinds, LightKinds::of(&records))?;
         let surfaces = (on_gpu.surfaces(), pixels);

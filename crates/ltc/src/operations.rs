@@ -7,7 +7,7 @@ use crate::{LightKinds, linked_shader};
 
 /// Of one light on one receiver: on Lambertian ones a single irradiance, else, as of Schlick's transmission to
 /// grazing light, which is 0, one of the Lambertian lobe and one of the specular one. Triangles are as if the
-/// horizon left four corners, and the axis of an ellipse as if found in [`STEPS`].
+/// surface's horizon alone cut them to four corners, and the axis of an ellipse as if found in [`STEPS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LightOperations {
     /// Once a batch: the lobe's transform.
@@ -39,6 +39,8 @@ pub fn light_operations(kinds: ReceiverKinds) -> Result<LightOperations, Error> 
     let [counted, taken] = if kinds.specular { [3, 2] } else { [1, 1] };
     let frame = less(of("estimator__1of_triangle")?, irradiance * counted);
     let triangle = |other| frame + less(irradiance, other) * taken;
+    // Of five edges in the text four are taken: the one along the horizon replaces that between its ends.
+    let edge = of("_1triangle_irradiance_edge")?;
     let all = of("estimator__1of_sphere")?;
     let (mut sphere, mut cut) = (all, all);
     if kinds.specular {
@@ -56,7 +58,7 @@ pub fn light_operations(kinds: ReceiverKinds) -> Result<LightOperations, Error> 
     }
     Ok(LightOperations {
         receiver: of("estimator_receiver")?,
-        near: triangle(points),
+        near: less(triangle(points), edge * taken),
         far: triangle(edges),
         sphere,
         cut,

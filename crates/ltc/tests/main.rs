@@ -5,6 +5,7 @@ mod gather;
 mod hard_cases;
 mod operations;
 mod scenes;
+mod shared;
 mod truth;
 
 #[path = "../../reflectance/examples/fit_transformed_cosines/triangles.rs"]

@@ -41,8 +41,10 @@
 //! irradiance for 3, 5, 9 and 15 bands.
 //!
 //! ## Hard cases
-//! - In the plane, within 1e-5 sizes of it, nothing is seen: there an edge passes through the point, and a light
-//!   that is seen from both sides has a step. Everywhere else each edge's plane is defined.
+//! - In the plane an edge would pass through the point, and a light that is seen from both sides has a step. A
+//!   point within 1e-5 sizes of it, of the triangle or with `edges = shared` of its group, is moved to that
+//!   distance on its side, so that inside the polygon 2π are seen up to the plane; the plane itself is of the
+//!   back, as with spheres in the triangles' stead. Beside an oblique plane rounding says which side it is.
 //! - Needles, points next to edges and corners, on lines of edges, between opposite corners: within 1e-5 of what
 //!   a square of that size covers (`tests/hard_cases.rs`).
 //! - Curved surfaces that are cut so finely that neighbours seem flat are no groups; each triangle is its own.
@@ -53,15 +55,15 @@
 //!
 //! | bands | triangle | edge of a group | far | sphere | triangle over sphere | lobes to weights, once a batch |
 //! |---|---|---|---|---|---|---|
-//! | 5 | 1148 | 470 | 1157 | 187 | 6.1 | 427 |
-//! | 6 | 1595 | 619 | 1472 | 237 | 6.7 | 547 |
-//! | 7 | 2204 | 822 | 1836 | 294 | 7.5 | 708 |
-//! | 8 | 2867 | 1043 | 2249 | 358 | 8.0 | 894 |
-//! | 9 | 3692 | 1318 | 2711 | 429 | 8.6 | 1125 |
+//! | 5 | 1156 | 474 | 1157 | 184 | 6.3 | 427 |
+//! | 6 | 1603 | 623 | 1472 | 234 | 6.9 | 547 |
+//! | 7 | 2212 | 826 | 1836 | 291 | 7.6 | 708 |
+//! | 8 | 2875 | 1047 | 2249 | 355 | 8.1 | 894 |
+//! | 9 | 3700 | 1322 | 2711 | 426 | 8.7 | 1125 |
 //!
-//! Lambertian receivers: 5.7 to 5.1 times a sphere; coloured ones 5.6 to 7.8. Wang's 2n − 1 directions with sums
+//! Lambertian receivers: 6.0 to 5.3 times a sphere; coloured ones 5.7 to 7.8. Wang's 2n − 1 directions with sums
 //! of coefficients for three channels would take 2.4 times the operations of an edge. A square of 648 triangles
-//! takes 4 × 1318 near with shared edges, 2 × 2711 far, and 648 spheres 648 × 429.
+//! takes 4 × 1322 near with shared edges, 2 × 2711 far, and 648 spheres 648 × 426.
 //!
 //! ## Deviations from the paper
 //! - Weights of the lobe instead of coefficients of the light, as above.
@@ -134,9 +136,8 @@ use manylights_reflectance::Materials;
 use manylights_scene::AreaLight;
 
 pub use bake::LobeTables;
-pub use exact::Edges;
 pub use gather::{gather, linked_shader};
-pub use manylights_area_lights::Narrow;
+pub use manylights_area_lights::{Edges, Narrow};
 pub use manylights_harmonics::zonal::TriangleForm;
 pub use operations::{ExactOperations, exact_operations, record_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};

@@ -1,9 +1,7 @@
-use manylights_area_lights::{BANDS, Narrow};
+use manylights_area_lights::{BANDS, Edges, Narrow};
 use manylights_harmonics::zonal::TriangleForm;
 use manylights_interpolation::Interpolation;
 use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
-
-use crate::Edges;
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     ParameterInfo {
@@ -53,22 +51,7 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
             ],
         },
     },
-    ParameterInfo {
-        name: "edges",
-        formerly: None,
-        introduced: None,
-        help: "that are integrated, where `approximation` is exact",
-        kind: ParameterKind::Choice {
-            default: "shared",
-            words: &[
-                ChoiceWord { word: "own", help: "those of every triangle" },
-                ChoiceWord {
-                    word: "shared",
-                    help: "those between triangles of one plane once, none between equal ones",
-                },
-            ],
-        },
-    },
+    Edges::PARAMETER,
     ParameterInfo {
         name: "narrow",
         formerly: None,
@@ -95,8 +78,6 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
 
 const NARROW: [(&str, Narrow); 3] =
     [("decline", Narrow::Decline), ("keep", Narrow::Keep), ("ltc", Narrow::Transformed)];
-
-const EDGES: [(&str, Edges); 2] = [("own", Edges::Own), ("shared", Edges::Shared)];
 
 /// All but `exact`.
 const SPHERES: [(&str, Approximation); 7] = [
@@ -142,7 +123,7 @@ impl Default for Settings {
 
 impl Settings {
     pub(crate) fn new(parameters: &Parameters) -> Self {
-        let exact = ("exact", Approximation::Exact(parameters.choice("edges", &EDGES)));
+        let exact = ("exact", Approximation::Exact(Edges::new(parameters)));
         let approximations = [&[exact][..], &SPHERES].concat();
         Self {
             bands: parameters.count(BANDS) as usize,

@@ -1,6 +1,7 @@
 //! Triangles at the vertices of a grid.
 
 use bytemuck::{Pod, Zeroable};
+use manylights_area_lights::IRRADIANCE;
 use manylights_gpu::{Binding, Error, Gpu, PassTime, Resource, UniformBatches, link};
 use manylights_harmonics::count;
 use manylights_harmonics::polygon::PolygonProjection;
@@ -60,14 +61,15 @@ fn linked_projection(
     (gradients, loops): (bool, Loops),
 ) -> Result<ProjectionShader, Error> {
     let function = if gradients { Function::CapScalesWithRate } else { Function::CapScalesOf };
+    let own = [
+        ("sh", &*wgsl::module(bands, &[function])),
+        ("points", &*points_module(bands)),
+        ("triangle", include_str!("shaders/triangle.wesl")),
+        ("solid_angle", include_str!("shaders/solid_angle.wesl")),
+    ];
     SourceShader {
         source: include_str!("shaders/source.wesl"),
-        modules: &[
-            ("sh", &*wgsl::module(bands, &[function])),
-            ("points", &*points_module(bands)),
-            ("triangle", include_str!("shaders/triangle.wesl")),
-            ("solid_angle", include_str!("shaders/solid_angle.wesl")),
-        ],
+        modules: &[&own[..], &IRRADIANCE].concat(),
         features: &form_features(Some(form)),
         capacity: CAPACITY,
     }
@@ -133,13 +135,14 @@ fn shaders(projection: &PolygonProjection<f64>, gradients: bool) -> Result<[Stri
     let layout = format!("const CAPACITY = {CAPACITY}u;\nconst LANES = {LANES}u;\n");
     // The record alone is of that module.
     let sh = format!("const BANDS = {bands}u;\n");
-    let modules = [
+    let own = [
         ("lobes", &*lobes),
         ("layout", &*layout),
         ("sh", &*sh),
         ("triangle", include_str!("shaders/triangle.wesl")),
         ("solid_angle", include_str!("shaders/solid_angle.wesl")),
     ];
+    let modules = [&own[..], &IRRADIANCE].concat();
     let forms = ["main", "solid_angle", "compromise", "compromise_root", "scaled"];
     let features = forms.map(|form| (form, false));
     let own = [("gradients", gradients), ("corners", true), ("point", false)];

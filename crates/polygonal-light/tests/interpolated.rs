@@ -98,3 +98,11 @@ fn pictures_are_those_of_f64() {
         }
     }
 }
+
+#[test]
+fn what_a_grid_cannot_hold_is_declined() {
+    let texts = [("interpolation", "trilinear"), ("narrow", "ltc")];
+    let refused = render(&lit(), RESOLUTION, &texts, DIRECT).expect_err("declined");
+    let said = refused.to_string();
+    assert!(said.contains("narrow=decline"), "{said}");
+}

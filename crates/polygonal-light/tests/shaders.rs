@@ -1,7 +1,7 @@
 //! What the linked WGSL holds.
 
 use crate::common::{GPU, exact, settings};
-use manylights_polygonal_light::{Edges, Settings, TriangleForm, linked_shader};
+use manylights_polygonal_light::{Edges, Narrow, Settings, TriangleForm, linked_shader};
 use manylights_reflectance::ReceiverKinds;
 
 #[test]
@@ -38,5 +38,17 @@ fn every_permutation_is_valid() {
             let shader = linked_shader(kinds, &Settings { bands, ..settings });
             shader.expect("links").compile(&GPU).map(|_| ()).expect("valid WGSL");
         }
+    }
+}
+
+/// Edges, solid angles and narrow lobes have one arc tangent, far triangles of bands and of narrow lobes one rule.
+#[test]
+fn formulas_are_there_once() {
+    let narrow = ReceiverKinds { specular: true, narrow: true, ..ReceiverKinds::default() };
+    for settings in [exact(Edges::Own), settings(TriangleForm::SolidAngle)] {
+        let settings = Settings { narrow: Narrow::Transformed, ..settings };
+        let wgsl = linked_shader(narrow, &settings).expect("links").wgsl;
+        assert_eq!(wgsl.matches("arc_tangent(y: f32").count(), 1, "{wgsl}");
+        assert_eq!(wgsl.matches("0.101286507").count(), 1, "{wgsl}");
     }
 }

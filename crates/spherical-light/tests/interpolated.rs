@@ -215,7 +215,7 @@ fn what_a_grid_cannot_hold_is_declined() {
     for (name, word, mend) in [
         ("product", "general", "product=full"),
         ("coefficients", "tabulated", "coefficients=analytic"),
-        ("narrow", "transformed", "narrow=decline"),
+        ("narrow", "ltc", "narrow=decline"),
     ] {
         let texts = [("interpolation", "trilinear"), (name, word)];
         let refused = render(&scene, RESOLUTION, &texts, DIRECT);

@@ -47,8 +47,8 @@ fn main() {
          seven at 8 sizes, before which sums over edges have lost two digits.\n\
          - Vertices and edges: at 1e-4 sizes from one a point's place beside it is known in f32 to 6e-4 of that distance.\n\
          - Needles: digits go with their width, relative to a light that is itself that narrow.\n\
-         - In the plane: exact triangles send nothing within 1e-5 sizes of it, the truth is that of the side on \
-         which a rounded point lies; so it is with the solid angle of three forms.\n\
+         - In the plane: exact triangles are seen from 1e-5 sizes beside it, on the side on which a rounded point lies, \
+         which need not be that of the truth; so it is with the solid angle of three forms.\n\
          - Under the huge triangle: its centroid is known to 6e-8 of 1e4 m, and the direction to it, at 1 m, to 6e-4.\n\n\
          ## ltc\n\n\
          Triangles, then spheres.\n\n{of_both}\n\

@@ -7,9 +7,10 @@ use manylights_metrics::Errors;
 
 use crate::error::one_line;
 use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
-use crate::measurement::inputs::ReferenceInputs;
+use crate::measurement::inputs::{Inputs, ReferenceInputs};
 use crate::question::plan::Budget;
 use crate::question::settings;
+use crate::registry::METHODS;
 
 /// More than any run takes, 30 years.
 const MOST_SECONDS: f64 = 1e9;
@@ -43,12 +44,23 @@ pub(crate) fn check(cell: &Cell) -> Result<(), String> {
     }
     within("exposure", inputs.exposure.into(), f64::MIN_POSITIVE, f32::MAX.into())?;
     match outcome {
+        Outcome::Done(done) if done.amount.is_none() && has_amount(inputs) => {
+            Err("`amount` is missing".into())
+        }
         Outcome::Done(done) => check_done(done, &inputs.references),
         Outcome::Declined { reason } | Outcome::Failed { reason } if reason.trim().is_empty() => {
             Err("`reason` is empty".into())
         }
         Outcome::Declined { .. } | Outcome::Failed { .. } => Ok(()),
     }
+}
+
+/// Whether its method has a cost, as any has whose amount was searched; of a method that this program does not
+/// know nothing else can be said.
+fn has_amount(inputs: &Inputs) -> bool {
+    let method = METHODS.iter().find(|method| method.id() == inputs.method);
+    matches!(inputs.budget, Budget::Seconds(_))
+        || method.is_some_and(|method| method.cost().is_some())
 }
 
 fn check_done(done: &Done, references: &BTreeMap<String, ReferenceInputs>) -> Result<(), String> {
@@ -122,7 +134,6 @@ fn is_broken(text: &str) -> bool {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::measurement::inputs::Inputs;
     use crate::measurement::provenance::{Provenance, sha256};
     use crate::measurement::versions::Versions;
     use crate::question::plan::Bounded;
@@ -208,6 +219,24 @@ pub(crate) mod tests {
         let mut cell = done_cell(1);
         cell.inputs.scene = "../../elsewhere".into();
         assert!(check(&cell).is_err());
+    }
+
+    #[test]
+    fn only_methods_without_a_cost_have_no_amount() {
+        let without = |method: &str, budget| {
+            let mut cell = done_cell(1);
+            (cell.inputs.method, cell.inputs.budget) = (method.into(), budget);
+            let Outcome::Done(done) = &mut cell.outcome else { panic!("it is done") };
+            done.amount = None;
+            check(&cell)
+        };
+        let missing = Err("`amount` is missing".to_owned());
+        assert_eq!(without("ltc", Budget::Count), Ok(()));
+        assert_eq!(without("vpl", Budget::Count), missing);
+        assert_eq!(without("reference", Budget::Count), missing);
+        // Of nobody here.
+        assert_eq!(without("m", Budget::Count), Ok(()));
+        assert_eq!(without("m", Budget::Seconds(0.1)), missing);
     }
 
     fn edit_errors(done: &mut Done, edit: impl Fn(&mut Errors)) {

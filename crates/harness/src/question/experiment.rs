@@ -303,6 +303,19 @@ seeds = [1]
             let twice = text.replace("[baseline]", "[[methods]]\nid = \"ltc\"\n[baseline]");
             let refusal = parse(&twice, Profile::Quick, METHODS).expect_err(word);
             assert!(refusal.contains("listed twice"), "{refusal}");
+            // Nothing is searched, so that neither times nor single values are asked for.
+            let bounded = format!("[baseline]\nid = \"ltc\"\nbudget = \"{word}\"");
+            let text = text
+                .replace("[baseline]\nid = \"ltc\"", &bounded)
+                .replace("times = [1.0, 2.0]\n", "");
+            let experiment = parse(&text, Profile::Quick, METHODS).expect(word);
+            assert_eq!((experiment.variants.len(), experiment.baseline), (1, 0), "{word}");
+        }
+        for word in ["time", "build_time", "total_time"] {
+            let bounded = format!("[baseline]\nid = \"reference\"\nbudget = \"{word}\"");
+            let refusal = refused("[baseline]\nid = \"reference\"", &bounded);
+            let said = format!("`reference` has a {word} budget: set its parameters instead");
+            assert!(refusal.contains(&said), "{refusal}");
         }
     }
 

@@ -92,13 +92,15 @@ impl MethodEntry {
         Ok(variants)
     }
 
-    /// The one variant of an entry without lists and budgets.
+    /// The one variant of an entry without lists, and without a budget where its method has a cost.
     ///
     /// # Errors
     /// As [`Self::variants`], and for an entry that stands for several.
     pub(crate) fn single(&self, methods: Methods) -> Result<Variant, String> {
-        if matches!(self.budget, Kind::Time) {
-            return Err(format!("`{}` has a time budget: set its parameters instead", self.id));
+        let method = methods[registry::place(methods, &self.id)?];
+        if let Some(bounded) = self.budget.bounded().filter(|_| method.cost().is_some()) {
+            let (id, word) = (&self.id, bounded.word());
+            return Err(format!("`{id}` has a {word} budget: set its parameters instead"));
         }
         match <[Variant; 1]>::try_from(self.variants(methods, &[])?) {
             Ok([variant]) => Ok(variant),
@@ -128,13 +130,13 @@ impl MethodEntry {
         let refuse = |reason: String| Err(format!("methods: `{id}` has a {word} budget, {reason}"));
         let defaults = Parameters::defaults(method.parameters());
         let builds = || method.baking().is_some_and(|baking| baking.depends_on(&defaults).amount);
-        if times.is_empty() {
-            return refuse("but the profile no `times`".into());
-        }
         // Without an amount of work there is nothing to search: one run tells its time.
         let Some(cost) = method.cost().map(|cost| cost.parameter) else {
             return Ok(&[Budget::Count]);
         };
+        if times.is_empty() {
+            return refuse("but the profile no `times`".into());
+        }
         if self.parameters.contains_key(cost) {
             return refuse(format!("which sets `{cost}`: leave it out"));
         }

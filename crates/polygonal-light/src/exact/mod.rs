@@ -1,27 +1,12 @@
 //! The records of exact triangles: what the adapter sums of them, near and far.
 
-mod face;
-mod group;
-mod outline;
 #[cfg(test)]
 mod tests;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
+use manylights_area_lights::{Edges, Face, Group, groups};
 use manylights_scene::AreaLight;
-
-use face::Face;
-use group::Group;
-
-/// Whose edges are integrated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Edges {
-    /// Those of every triangle.
-    Own,
-    /// Those between triangles of one plane once, by the difference of their radiances, and none between
-    /// equal ones.
-    Shared,
-}
 
 /// What a record is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +52,7 @@ impl ExactRecord {
         let faces: Vec<_> = lights.iter().filter_map(Face::new).collect();
         match edges {
             Edges::Own => faces.iter().map(Self::triangle).collect(),
-            Edges::Shared => group::all(&faces).iter().flat_map(Self::of_group).collect(),
+            Edges::Shared => groups(&faces).iter().flat_map(Self::of_group).collect(),
         }
     }
 
@@ -76,19 +61,19 @@ impl ExactRecord {
         plane.record(Kind::Triangle, face.corners, face.radiance)
     }
 
-    /// Its edges, then its triangles.
+    /// Its edges, each once by the difference of the radiances beside it, then its triangles.
     fn of_group(group: &Group) -> Vec<Self> {
         if let [face] = &group.faces[..] {
             return vec![Self::triangle(face)];
         }
         let corners = group.faces.iter().flat_map(|face| face.corners);
         let plane = Plane::new(group.normal, corners, group.faces[0].two_sided);
-        let edges = outline::edges(&group.faces, group.tolerance);
+        let edges = group.edges();
         let apex = edges.first().map_or(Vec3::ZERO, |edge| edge.from);
         let near = edges
             .iter()
             .map(|edge| plane.record(Kind::Edge, [apex, edge.from, edge.to], edge.radiance));
-        let far = outline::triangles(group);
+        let far = group.triangles();
         let far = far.iter().map(|face| plane.record(Kind::Far, face.corners, face.radiance));
         near.chain(far).collect()
     }

@@ -1,10 +1,10 @@
 //! What becomes of triangles before any of them is seen.
 
 use glam::{DVec3, Quat, Vec2, Vec3};
+use manylights_area_lights::{Edges, Face};
 use manylights_scene::AreaLight;
 
-use super::face::Face;
-use super::{Edges, ExactRecord, Kind};
+use super::{ExactRecord, Kind};
 
 /// A square of so many cells in each direction, two triangles each, of the radiances that its cells have; lying
 /// obliquely away from the origin, so that no corner is exact.

@@ -33,7 +33,9 @@ pub fn radiance(
     let receiver = Receiver::new(brdf, [normal, view], settings.bands, Form::Full, Damping::None);
     if settings.narrow == Narrow::Transformed && brdf.has_specular() && is_narrow(brdf.alpha) {
         let specular = of_surface(&brdf.into(), normal.dot(view));
-        let reflected = |light: &AreaLight| narrow(&receiver, position, specular, light);
+        let reflected = |light: &AreaLight| {
+            narrow(&receiver, position, specular, (light, settings.approximation))
+        };
         let specular: DVec3 = lights.iter().map(reflected).sum();
         return specular + of_bands(&receiver.lambertian(), [position, normal], lights, settings);
     }
@@ -45,13 +47,15 @@ fn narrow(
     receiver: &Receiver,
     position: DVec3,
     (cosine, magnitude): (TransformedCosine, DVec3),
-    light: &AreaLight,
+    (light, approximation): (&AreaLight, Approximation),
 ) -> DVec3 {
     let AreaLight::Triangle { corners, radiance, two_sided } = *light else { return DVec3::ZERO };
-    let local = |corner: glam::Vec3| {
-        let corner = corner.as_dvec3() - position;
-        DVec3::from(receiver.frame.map(|axis| axis.dot(corner)))
+    let seen = corners.map(|corner| corner.as_dvec3() - position);
+    let corners = match approximation {
+        Approximation::Exact(_) => polygon::off_plane(seen),
+        Approximation::Sphere(_) => seen,
     };
+    let local = |corner: DVec3| DVec3::from(receiver.frame.map(|axis| axis.dot(corner)));
     let irradiance = transformed_triangle(&cosine, corners.map(local), two_sided);
     radiance.as_dvec3() * magnitude * irradiance
 }

@@ -11,7 +11,29 @@ use manylights_scene::AreaLight;
 /// than seven points.
 const FAR: f64 = 300.0;
 
-/// Of all lights that are triangles; those in whose plane the point lies send nothing.
+/// Distance from a triangle's plane, in sizes, to which nearer points are moved, on their side.
+const LEAST_HEIGHT: f64 = 1e-5;
+
+/// Corners as seen from a point, which is moved where it is in the triangle's plane or next to it; the plane itself
+/// is of the back.
+pub(super) fn off_plane(corners: [DVec3; 3]) -> [DVec3; 3] {
+    let [a, b, c] = corners;
+    // Without area it sends nothing.
+    let Some(normal) = (b - a).cross(c - a).try_normalize() else { return corners };
+    let height = -normal.dot(a);
+    let magnitude = height.abs().max(LEAST_HEIGHT * size(&corners));
+    let moved = if height > 0.0 { magnitude - height } else { -magnitude - height };
+    corners.map(|corner| corner - moved * normal)
+}
+
+/// Diameter of the sphere around corners about the middle of the box that holds them.
+fn size(corners: &[DVec3; 3]) -> f64 {
+    let [a, b, c] = *corners;
+    let center = 0.5 * (a.min(b).min(c) + a.max(b).max(c));
+    2.0 * corners.iter().map(|corner| corner.distance(center)).fold(0.0, f64::max)
+}
+
+/// Of all lights that are triangles.
 pub(super) fn reflected(
     receiver: &Receiver,
     position: DVec3,
@@ -24,7 +46,7 @@ pub(super) fn reflected(
     let mut sum = DVec3::ZERO;
     for light in lights {
         let AreaLight::Triangle { corners, radiance, two_sided } = *light else { continue };
-        let seen = corners.map(|corner| corner.as_dvec3() - position);
+        let seen = off_plane(corners.map(|corner| corner.as_dvec3() - position));
         let [a, b, c] = seen;
         // Positive as seen from behind.
         let volume = a.dot((b - a).cross(c - a));

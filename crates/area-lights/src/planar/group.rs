@@ -7,10 +7,11 @@ use glam::{DVec3, Vec3};
 use super::face::Face;
 
 /// Of triangles that lie in one plane, connected by edges, and all shine to the same sides.
-pub(super) struct Group {
-    pub(super) faces: Vec<Face>,
+pub struct Group {
+    /// At least one.
+    pub faces: Vec<Face>,
     /// Of the front, of any length.
-    pub(super) normal: DVec3,
+    pub normal: DVec3,
     /// How far corners may lie off their plane, and those that vanish from a line, m.
     pub(super) tolerance: f64,
 }
@@ -25,8 +26,8 @@ pub(super) fn bits(corner: Vec3) -> [u32; 3] {
     (corner + Vec3::ZERO).to_array().map(f32::to_bits)
 }
 
-/// In the order of their first triangles.
-pub(super) fn all(faces: &[Face]) -> Vec<Group> {
+/// All triangles in groups, in the order of their first ones.
+pub fn groups(faces: &[Face]) -> Vec<Group> {
     let mut by_edge = by_edge(faces);
     let normals: Vec<_> = faces.iter().map(|face| face.across().normalize()).collect();
     // Shine to the same sides and are not turned against each other.
@@ -42,7 +43,7 @@ pub(super) fn all(faces: &[Face]) -> Vec<Group> {
         taken[first] = true;
         let (mut found, mut next) = (vec![first], 0);
         while let Some(&face) = found.get(next) {
-            for (from, to) in edges(&faces[face]) {
+            for (from, to) in faces[face].edges() {
                 // Those that share the edge have it in the other direction.
                 let Some(others) = by_edge.get_mut(&(bits(to), bits(from))) else { continue };
                 // Who is taken need not be met again: many may share an edge.
@@ -85,15 +86,9 @@ fn in_one_plane(faces: Vec<Face>) -> Vec<Group> {
 fn by_edge(faces: &[Face]) -> HashMap<([u32; 3], [u32; 3]), Vec<usize>> {
     let mut by_edge: HashMap<_, Vec<usize>> = HashMap::new();
     for (index, face) in faces.iter().enumerate() {
-        for (from, to) in edges(face) {
+        for (from, to) in face.edges() {
             by_edge.entry((bits(from), bits(to))).or_default().push(index);
         }
     }
     by_edge
-}
-
-/// Around a triangle.
-pub(super) fn edges(face: &Face) -> [(Vec3, Vec3); 3] {
-    let [a, b, c] = face.corners;
-    [(a, b), (b, c), (c, a)]
 }

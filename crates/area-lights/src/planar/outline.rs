@@ -5,14 +5,17 @@ use std::collections::HashMap;
 use glam::{DVec3, Vec3};
 
 use super::face::Face;
-use super::group::{Group, bits, edges as around};
+use super::group::{Group, bits};
 
 /// With the radiance to its left, as seen from the front, less that to its right.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Edge {
-    pub(super) from: Vec3,
-    pub(super) to: Vec3,
-    pub(super) radiance: Vec3,
+pub struct Edge {
+    /// m.
+    pub from: Vec3,
+    /// m.
+    pub to: Vec3,
+    /// W·m⁻²·sr⁻¹.
+    pub radiance: Vec3,
 }
 
 impl Edge {
@@ -21,12 +24,35 @@ impl Edge {
     }
 }
 
+impl Group {
+    /// Where radiances differ, straight chains of them as one edge.
+    pub fn edges(&self) -> Vec<Edge> {
+        edges(&self.faces, self.tolerance)
+    }
+
+    /// Triangles that cover it: where a part of equal radiance has a convex outline those between its corners,
+    /// else its own.
+    pub fn triangles(&self) -> Vec<Face> {
+        parts(&self.faces)
+            .into_iter()
+            .flat_map(|part| match convex_outline(&part, self) {
+                Some(corners) if corners.len() - 2 < part.len() => {
+                    let triangle =
+                        |pair: &[Vec3]| Face { corners: [corners[0], pair[0], pair[1]], ..part[0] };
+                    corners[1..].windows(2).map(triangle).collect()
+                }
+                _ => part,
+            })
+            .collect()
+    }
+}
+
 /// Where radiances differ, straight chains of them as one edge.
-pub(super) fn edges(faces: &[Face], tolerance: f64) -> Vec<Edge> {
+fn edges(faces: &[Face], tolerance: f64) -> Vec<Edge> {
     let mut found: Vec<Edge> = Vec::new();
     let mut position = HashMap::new();
     for face in faces {
-        for (from, to) in around(face) {
+        for (from, to) in face.edges() {
             let (there, back) = ((bits(from), bits(to)), (bits(to), bits(from)));
             if let Some(&index) = position.get(&back) {
                 let edge: &mut Edge = &mut found[index];
@@ -98,27 +124,11 @@ fn is_straight(chain: Edge, last: Edge, inner: &[Vec3], tolerance: f64) -> bool 
     forwards && inner.iter().all(|corner| off(corner) <= tolerance)
 }
 
-/// Triangles that cover a group: where a part of equal radiance has a convex outline those between its corners,
-/// else its own.
-pub(super) fn triangles(group: &Group) -> Vec<Face> {
-    parts(&group.faces)
-        .into_iter()
-        .flat_map(|part| match convex_outline(&part, group) {
-            Some(corners) if corners.len() - 2 < part.len() => {
-                let triangle =
-                    |pair: &[Vec3]| Face { corners: [corners[0], pair[0], pair[1]], ..part[0] };
-                corners[1..].windows(2).map(triangle).collect()
-            }
-            _ => part,
-        })
-        .collect()
-}
-
 /// Neighbours of equal radiance.
 fn parts(faces: &[Face]) -> Vec<Vec<Face>> {
     let mut by_edge = HashMap::new();
     for (index, face) in faces.iter().enumerate() {
-        for (from, to) in around(face) {
+        for (from, to) in face.edges() {
             by_edge.insert((bits(from), bits(to)), index);
         }
     }
@@ -130,7 +140,7 @@ fn parts(faces: &[Face]) -> Vec<Vec<Face>> {
         }
         let (mut part, mut next) = (vec![faces[first]], 0);
         while let Some(face) = part.get(next).copied() {
-            for (from, to) in around(&face) {
+            for (from, to) in face.edges() {
                 let Some(&other) = by_edge.get(&(bits(to), bits(from))) else { continue };
                 if faces[other].radiance == face.radiance
                     && !std::mem::replace(&mut taken[other], true)
