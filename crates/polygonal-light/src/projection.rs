@@ -70,7 +70,8 @@ fn linked_projection(
     SourceShader {
         source: include_str!("shaders/source.wesl"),
         modules: &[&own[..], &IRRADIANCE].concat(),
-        features: &form_features(Some(form)),
+        // A grid is read by lobes on harmonics alone.
+        features: &[&form_features(Some(form))[..], &[("transformed", false)]].concat(),
         capacity: CAPACITY,
     }
     .link(bands, gradients, loops)
