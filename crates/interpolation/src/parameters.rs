@@ -90,8 +90,8 @@ impl Interpolation {
         },
     };
 
-    /// The projection's loops. Forward by default: holding all sums in registers, for which the thesis reverses
-    /// the loops, costs a software adapter nothing, and most projections were measured to be faster so.
+    /// The projection's loops. Forward by default, which was faster for most projections on a software adapter; the
+    /// thesis reverses the loops so that a graphics card's registers hold the sums.
     pub const LOOPS: ParameterInfo = ParameterInfo {
         name: "loops",
         formerly: None,
