@@ -83,7 +83,7 @@ fn baked(
     let what = format!("{} on {}, {transport:?}, baked", method.id(), stage.scene.name);
     let parameters = work(method, 33);
     // Of another seed, where it may serve both.
-    let first = if baking.depends_on().seed { 1 } else { 2 };
+    let first = if baking.depends_on(&parameters).seed { 1 } else { 2 };
     let bake = baking.bake(&stage.frame(transport, first), &parameters).expect("a bake");
     let counters: Vec<_> = bake.counters().iter().map(|(name, _)| *name).collect();
     assert!(baking.counters().iter().map(|info| info.name).eq(counters), "counters of {what}");

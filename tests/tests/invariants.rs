@@ -8,7 +8,7 @@ use manylights_method::Method;
 
 /// Crates that no method may be named in, with their floors. All other crates are methods, but for the
 /// path tracer, which is a method and makes the references.
-const FLOORS: [(&str, u32); 10] = [
+const FLOORS: [(&str, u32); 11] = [
     ("harmonics", 0),
     ("scene", 0),
     ("metrics", 0),
@@ -18,6 +18,7 @@ const FLOORS: [(&str, u32); 10] = [
     ("paths", 2),
     ("virtual-lights", 3),
     ("area-lights", 3),
+    ("interpolation", 3),
     ("harness", 5),
 ];
 const METHOD_FLOOR: u32 = 4;

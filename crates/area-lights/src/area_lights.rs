@@ -11,6 +11,9 @@ use crate::frame::AreaLightFrame;
 /// The name of the parameter that time and accuracy grow with.
 pub const BANDS: &str = "bands";
 
+/// What every run counts first.
+pub const LIGHTS: CounterInfo = CounterInfo { name: "lights", help: "that were gathered" };
+
 /// What a light with a surface contributes to a pixel, on the adapter. All else is alike for all of them,
 /// and [`AreaLights`] makes them a [`Method`] of it: direct light of all lights at every pixel, without
 /// shadows; time and accuracy grow with the parameter [`BANDS`]; nothing is left to chance; and half of
@@ -26,6 +29,8 @@ pub trait Estimator: Sync + 'static {
     const PARAMETERS: &'static [ParameterInfo];
     /// The kind of light that it takes, in the plural.
     const TAKES: &'static str;
+    /// As [`Method::counters`].
+    const COUNTERS: &'static [CounterInfo] = &[LIGHTS];
     /// What it bakes.
     type Tables: SceneTables;
 
@@ -44,7 +49,7 @@ pub trait Estimator: Sync + 'static {
     ) -> Result<Box<dyn Run + 'a>, Error>;
 }
 
-/// What an estimator tabulates, on the processor, of the materials of a scene and of its own formulas.
+/// What an estimator tabulates of the materials of a scene and of its own formulas, and what else it bakes.
 pub trait SceneTables: Sized + 'static {
     /// Makes all of them anew.
     ///
@@ -52,8 +57,31 @@ pub trait SceneTables: Sized + 'static {
     /// [`Error::Declined`] with a reason where the scene is not the method's.
     fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error>;
 
-    /// How many were made.
+    /// How many tables were made.
     fn count(&self) -> u64;
+
+    /// As [`Baking::depends_on`]; of tables alone the scene and the amount.
+    fn depends_on(_: &Parameters) -> Dependencies {
+        Dependencies { scene: true, amount: true, ..Dependencies::default() }
+    }
+
+    /// As [`Baking::processor`].
+    fn processor(_: &Parameters) -> Processor {
+        Processor::Cpu
+    }
+
+    /// As [`Bake::grow`].
+    ///
+    /// # Errors
+    /// As there.
+    fn grow(&mut self, _: &AreaLightFrame<'_>, _: &Parameters) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// As [`Bake::pass_times`].
+    fn pass_times(&self) -> Vec<PassTime> {
+        Vec::new()
+    }
 }
 
 /// The method of an estimator.
@@ -82,7 +110,7 @@ impl<M: Estimator> Method for AreaLights<M> {
     }
 
     fn counters(&self) -> &'static [CounterInfo] {
-        &[CounterInfo { name: "lights", help: "that were gathered" }]
+        M::COUNTERS
     }
 
     fn cost(&self) -> Option<Cost> {
@@ -116,12 +144,12 @@ impl<M: Estimator> Method for AreaLights<M> {
 }
 
 impl<M: Estimator> Baking for AreaLights<M> {
-    fn depends_on(&self) -> Dependencies {
-        Dependencies { scene: true, amount: true, ..Dependencies::default() }
+    fn depends_on(&self, parameters: &Parameters) -> Dependencies {
+        M::Tables::depends_on(parameters)
     }
 
-    fn processor(&self) -> Processor {
-        Processor::Cpu
+    fn processor(&self, parameters: &Parameters) -> Processor {
+        M::Tables::processor(parameters)
     }
 
     fn counters(&self) -> &'static [CounterInfo] {
@@ -160,11 +188,15 @@ impl<M: Estimator> Bake for Baked<M> {
         M::start(frame_of::<M>(frame)?, parameters, &self.0)
     }
 
+    fn grow(&mut self, frame: &Frame<'_>, parameters: &Parameters) -> Result<(), Error> {
+        self.0.grow(&frame_of::<M>(frame)?, parameters)
+    }
+
     fn counters(&self) -> Vec<(&'static str, u64)> {
         vec![("tables", self.0.count())]
     }
 
     fn pass_times(&self) -> Vec<PassTime> {
-        Vec::new()
+        self.0.pass_times()
     }
 }

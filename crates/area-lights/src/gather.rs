@@ -88,6 +88,11 @@ impl AreaGather {
         self.gpu.run(&range.map(dispatch).collect::<Vec<_>>())
     }
 
+    /// Where the sums are, a `vec4f` a surface: what else reaches the surfaces may be added.
+    pub fn results(&self) -> &Buffer {
+        self.pixels.results_buffer()
+    }
+
     /// The sums so far, W·m⁻²·sr⁻¹, in the order of the surfaces.
     ///
     /// # Errors

@@ -22,7 +22,7 @@ mod triangle_mean;
 /// estimator gives another picture.
 pub const AREA_LIGHTS_VERSION: u32 = 1;
 
-pub use area_lights::{AreaLights, BANDS, Estimator, SceneTables};
+pub use area_lights::{AreaLights, BANDS, Estimator, LIGHTS, SceneTables};
 pub use frame::AreaLightFrame;
 pub use gather::{AreaGather, LightBatches};
 pub use gather_shader::{EstimatorShader, GatherShader};

@@ -35,12 +35,22 @@ impl Gpu {
     /// # Errors
     /// Where it is larger than the adapter binds.
     pub fn zeroed(&self, label: &str, size: u64) -> Result<Buffer, Error> {
+        self.made(label, size, wgpu::BufferUsages::empty())
+    }
+
+    /// The same with another usage beside.
+    pub(crate) fn made(
+        &self,
+        label: &str,
+        size: u64,
+        usage: wgpu::BufferUsages,
+    ) -> Result<Buffer, Error> {
         self.allowed(label, size)?;
         let raw = self.checked(label, || {
             self.device().create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
                 size: size.max(16),
-                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+                usage: usage | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
                 mapped_at_creation: false,
             })
         })?;

@@ -25,12 +25,11 @@ pub struct Pass {
     stride: Option<u32>,
 }
 
-/// One run of a pass.
-#[derive(Clone, Copy)]
+/// One run of a pass, or several that are timed as one.
 pub struct Dispatch<'a> {
     pass: &'a Pass,
-    offset: Option<u32>,
-    workgroups: [u32; 3],
+    /// Offsets of their batches, and workgroups.
+    runs: Vec<(Option<u32>, [u32; 3])>,
 }
 
 /// The time that a pass took on the adapter.
@@ -51,7 +50,17 @@ impl Pass {
 
     /// The same with the batch of this index.
     pub fn over_batch(&self, index: usize, workgroups: [u32; 3]) -> Dispatch<'_> {
-        Dispatch { pass: self, offset: self.stride.map(|stride| index as u32 * stride), workgroups }
+        self.over_batches([(index, workgroups)])
+    }
+
+    /// Over batches of these indices, one after the other, each over workgroups of its own.
+    pub fn over_batches(
+        &self,
+        batches: impl IntoIterator<Item = (usize, [u32; 3])>,
+    ) -> Dispatch<'_> {
+        let offset = |index: usize| self.stride.map(|stride| index as u32 * stride);
+        let run = |(index, workgroups)| (offset(index), workgroups);
+        Dispatch { pass: self, runs: batches.into_iter().map(run).collect() }
     }
 }
 
@@ -93,8 +102,8 @@ impl Gpu {
     /// Where a pass has more workgroups than allowed or the device was lost.
     pub fn run(&self, dispatches: &[Dispatch<'_>]) -> Result<Vec<PassTime>, Error> {
         let most = self.shared.limits.max_compute_workgroups_per_dimension;
-        for Dispatch { pass, workgroups, .. } in dispatches {
-            let needed = workgroups.iter().copied().fold(0, u32::max);
+        for Dispatch { pass, runs } in dispatches {
+            let needed = runs.iter().flat_map(|(_, workgroups)| *workgroups).fold(0, u32::max);
             let (what, mend) = (format!("the pass `{}`", pass.name), "choose less work");
             self.fits(&what, [needed.into(), most.into()], "workgroups in a row", mend)?;
         }
@@ -117,9 +126,10 @@ impl Dispatch<'_> {
             timestamp_writes,
         });
         pass.set_pipeline(&self.pass.kernel.pipeline);
-        pass.set_bind_group(0, &self.pass.group, self.offset.as_slice());
-        let [x, y, z] = self.workgroups;
-        pass.dispatch_workgroups(x, y, z);
+        for (offset, [x, y, z]) in &self.runs {
+            pass.set_bind_group(0, &self.pass.group, offset.as_slice());
+            pass.dispatch_workgroups(*x, *y, *z);
+        }
     }
 }
 

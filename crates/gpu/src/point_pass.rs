@@ -76,6 +76,11 @@ impl PointPass {
         workgroups(self.count, points_a_group)
     }
 
+    /// Where the results are, for passes of another kind.
+    pub fn results_buffer(&self) -> &Buffer {
+        &self.results
+    }
+
     /// The results so far, in the order of the points.
     ///
     /// # Errors

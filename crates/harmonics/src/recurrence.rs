@@ -10,7 +10,7 @@ use crate::{MAX_BANDS, Real};
 /// 1e-5 of band 29; this pair turns there like a rotation by a small angle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<R> {
-    q_from_q: R,
+    pub(crate) q_from_q: R,
     pub(crate) q_from_d: R,
     pub(crate) d_from_d: R,
     pub(crate) d_from_q: R,

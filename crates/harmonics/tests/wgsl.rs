@@ -9,9 +9,10 @@ use manylights_harmonics::clamped_cosine::{Folded, Local};
 use manylights_harmonics::product::Product;
 use manylights_harmonics::projection::fibonacci;
 use manylights_harmonics::quadrature::gauss_legendre;
-use manylights_harmonics::wgsl::{CUT, Function, module};
+use manylights_harmonics::rotation::Zxzxz;
+use manylights_harmonics::wgsl::{CUT, Function, module, order};
 use manylights_harmonics::zonal::{Cap, cap_rate_stable, cap_stable};
-use manylights_harmonics::{Basis, MAX_BANDS, count, even_index, index};
+use manylights_harmonics::{Basis, MAX_BANDS, count, even_count, even_index, index};
 use proptest::prelude::*;
 
 /// The poles, the axes, both with one small component, and some directions between.
@@ -107,59 +108,86 @@ fn gradients_keep_five_digits_in_f32() {
     }
 }
 
-/// c_l and d ∂c_l/∂d in f64.
-fn cap_truth(bands: usize, sine: f64) -> Vec<[f64; 2]> {
-    let sine = sine.min(1.0);
-    let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
-    let (mut scales, mut rates) = (vec![0.0; bands], vec![0.0; bands]);
-    cap_stable(Cap { sine, cosine }, &mut scales);
-    let rate = if sine < 1.0 { sine * sine / cosine } else { 0.0 };
-    cap_rate_stable(Cap { sine, cosine }, rate, &mut rates);
-    scales.into_iter().zip(rates).map(|(scale, rate)| [scale, rate]).collect()
-}
-
 #[test]
 fn cap_scales_keep_six_digits_in_f32() {
-    let both = Function::CapScalesWithRate.generate(MAX_BANDS).wgsl;
-    let single = Function::CapScales.generate(MAX_BANDS).wgsl;
+    let wgsl = Function::CapScales.generate(MAX_BANDS).wgsl;
     let sines = (0..=240)
         .map(|i| 10_f32.powf(-0.025 * i as f32))
         .chain((1..=40).map(|i| 1.0 - i as f32 / 40.0 * 0.9))
         .chain([1.0 - f32::EPSILON, 1.5, f32::INFINITY]);
-    let mut worst = [0.0_f64; 2];
     for sine in sines {
-        let result = run(&both, &[("sine", vec![sine])]);
-        let truth = cap_truth(MAX_BANDS, f64::from(sine));
-        let same = run(&single, &[("sine", vec![sine])]);
-        for part in 0..2 {
-            let largest = truth.iter().map(|pair| pair[part].abs()).fold(0.0, f64::max);
-            for (l, pair) in truth.iter().enumerate() {
-                let error = (f64::from(result[2 * l + part]) - pair[part]).abs();
-                assert!(error <= 1e-6 * largest, "{part} of band {l} at {sine}: {error:e}");
-                worst[part] = worst[part].max(error / largest.max(f64::MIN_POSITIVE));
-                assert!(same[l] == result[2 * l]);
-            }
-        }
+        let result = run(&wgsl, &[("sine", vec![sine])]);
+        let sine = f64::from(sine).min(1.0);
+        let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
+        let mut truth = vec![0.0; MAX_BANDS];
+        cap_stable(Cap { sine, cosine }, &mut truth);
+        assert_close(&result, &truth, &format!("at {sine}"));
     }
-    println!("scales {:.1e}, rates {:.1e}", worst[0], worst[1]);
+}
+
+/// Every number to 1e-6 of the largest.
+fn assert_close(result: &[f32], truth: &[f64], context: &str) {
+    assert_eq!(result.len(), truth.len());
+    let largest = truth.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    for (l, (&value, truth)) in result.iter().zip(truth).enumerate() {
+        let error = (f64::from(value) - truth).abs();
+        assert!(error <= 1e-6 * largest, "band {l} {context}: {error:e}");
+    }
 }
 
 /// Down to the hemisphere, of which a rounded sine is 1 long before.
 #[test]
-fn cap_scales_of_sine_and_cosine_keep_six_digits_in_f32() {
+fn cap_scales_of_sine_and_cosine_and_their_rates_keep_six_digits_in_f32() {
     let wgsl = Function::CapScalesOf.generate(MAX_BANDS).wgsl;
+    let with_rate = Function::CapScalesWithRate.generate(MAX_BANDS).wgsl;
     let angles = (1..=90).map(|degrees| f64::from(degrees).to_radians());
     let near_hemisphere = [1e-2, 1e-3, 1e-5, 0.0].map(|gap| std::f64::consts::FRAC_PI_2 - gap);
     for angle in angles.chain([1e-4, 1e-8]).chain(near_hemisphere) {
         let [sine, cosine] = [angle.sin(), angle.cos().max(0.0)];
         let [s, c] = [sine, cosine].map(|value| vec![value as f32]);
-        let result = run(&wgsl, &[("sine", s), ("cosine", c)]);
-        let mut truth = vec![0.0; MAX_BANDS];
+        let arguments = [("sine", s), ("cosine", c)];
+        let result = run(&wgsl, &arguments);
+        let (mut truth, mut rates) = (vec![0.0; MAX_BANDS], vec![0.0; MAX_BANDS]);
         cap_stable(Cap { sine, cosine }, &mut truth);
-        let largest = truth.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        for (l, (value, truth)) in result.iter().zip(&truth).enumerate() {
-            let error = (f64::from(*value) - truth).abs();
-            assert!(error <= 1e-6 * largest, "band {l} at {angle}: {error:e}");
+        cap_rate_stable(Cap { sine, cosine }, 1.0, &mut rates);
+        assert_close(&result, &truth, &format!("at {angle}"));
+        let both = run(&with_rate, &arguments);
+        let part = |part: usize| both.iter().skip(part).step_by(2).copied().collect::<Vec<_>>();
+        assert_eq!(part(0), result);
+        assert_close(&part(1), &rates, &format!("at {angle}, rate"));
+    }
+}
+
+/// One order at a time is the whole, to the last digits.
+#[test]
+fn orders_are_those_of_the_whole_in_f32() {
+    for bands in [1, 2, 3, 5, 9, 15] {
+        for direction in directions() {
+            let (values, gradients) = (truth(bands, direction), gradient_truth(bands, direction));
+            let mut seen = 0;
+            for order in 0..bands {
+                let indices = order::indices(bands, order);
+                let plain = run(&order::values(bands, order).wgsl, &vector(direction));
+                let both = run(&order::with_gradient(bands, order).wgsl, &vector(direction));
+                assert_eq!([plain.len(), both.len() / 4], [indices.len(); 2]);
+                seen += indices.len();
+                for (k, i) in indices.into_iter().enumerate() {
+                    // Of band l no value exceeds √((2l + 1)/2π) and no gradient l + 1 times as much.
+                    let l = i.isqrt() as f64;
+                    let largest = ((2.0 * l + 1.0) / TAU).sqrt();
+                    let context = format!("coefficient {i} of {bands} bands at {direction:?}");
+                    for value in [plain[k], both[4 * k + 3]] {
+                        let error = (f64::from(value) - values[i]).abs();
+                        assert!(error <= 3e-6 * largest, "{context}: {error:e}");
+                    }
+                    for axis in 0..3 {
+                        let error = (f64::from(both[4 * k + axis]) - gradients[i][axis]).abs();
+                        let bound = 3e-6 * (l + 1.0) * largest;
+                        assert!(error <= bound, "{context}, axis {axis}: {error:e}");
+                    }
+                }
+            }
+            assert_eq!(seen, count(bands));
         }
     }
 }
@@ -269,6 +297,53 @@ proptest! {
             prop_assert!(difference(&run(&function.generate(bands).wgsl, &arguments), &truth) <= 1e-5);
         }
     }
+}
+
+/// What is even in y in a frame, seen from outside: turned by the inverse rotation.
+#[test]
+fn even_functions_spread_over_all_coefficients() {
+    for bands in [1, 2, 3, 5, 9, 15] {
+        let wgsl = Function::SpreadEven.generate(bands).wgsl;
+        for normal in directions() {
+            let normal = normalised(normal.map(f64::from));
+            let axis = [0, 1, 2].map(|i| f64::from(u8::from(i == least(normal))));
+            let tangent = normalised(cross(axis, normal));
+            let bitangent = cross(normal, tangent);
+            let from_frame = [0, 1, 2].map(|i| [tangent[i], bitangent[i], normal[i]]);
+            let values: Numbers =
+                (0..even_count(bands)).map(|i| ((7 * i + 3) % 11) as f32 / 5.0 - 1.0).collect();
+            let mut truth = vec![0.0; count(bands)];
+            for l in 0..bands {
+                for m in 0..=l {
+                    truth[index(l, m as isize)] = f64::from(values[even_index(l, m)]);
+                }
+            }
+            Zxzxz::new(bands).apply(from_frame, &mut truth, &mut vec![0.0; count(bands)]);
+            let axes = ["tangent", "bitangent", "normal"].into_iter();
+            let names: Vec<_> = axes
+                .zip([tangent, bitangent, normal])
+                .flat_map(|(name, axis)| {
+                    let components = ["x", "y", "z"].into_iter().zip(axis);
+                    components.map(move |(c, value)| (format!("{name}.{c}"), vec![value as f32]))
+                })
+                .collect();
+            let mut arguments = vec![("a", values)];
+            arguments.extend(names.iter().map(|(name, value)| (&**name, value.clone())));
+            let error = difference(&run(&wgsl, &arguments), &truth);
+            assert!(error <= 1e-5, "{bands} bands, {normal:?}: {error:e}");
+        }
+    }
+}
+
+fn least(v: [f64; 3]) -> usize {
+    (0..3).fold(0, |least, i| if v[i].abs() < v[least].abs() { i } else { least })
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        a[j] * b[k] - a[k] * b[j]
+    })
 }
 
 /// Largest |value − truth|; both are below 10.

@@ -28,11 +28,11 @@ pub struct Dependencies {
 
 /// How a method bakes.
 pub trait Baking: Sync {
-    /// What it must be baked again for.
-    fn depends_on(&self) -> Dependencies;
+    /// What it must be baked again for, with these parameters.
+    fn depends_on(&self, parameters: &Parameters) -> Dependencies;
 
-    /// Where the bake is made, which need not be where frames are.
-    fn processor(&self) -> Processor;
+    /// Where the bake is made with these parameters, which need not be where frames are.
+    fn processor(&self, parameters: &Parameters) -> Processor;
 
     /// What [`Bake::counters`] returns, in its order.
     fn counters(&self) -> &'static [CounterInfo];

@@ -15,7 +15,16 @@ impl PassTimes {
         let passes: f64 = times.iter().map(|time| time.seconds).sum();
         let seconds = (since.elapsed().as_secs_f64() - passes).max(0.0);
         let host = PassTime { pass: host, seconds };
-        for &PassTime { pass, seconds } in times.iter().chain([&host]) {
+        self.sum(times.iter().chain([&host]));
+    }
+
+    /// Adds up those of others.
+    pub fn merge(&mut self, others: &Self) {
+        self.sum(&others.0);
+    }
+
+    fn sum<'t>(&mut self, times: impl IntoIterator<Item = &'t PassTime>) {
+        for &PassTime { pass, seconds } in times {
             match self.0.iter_mut().find(|time| time.pass == pass) {
                 Some(time) => time.seconds += seconds,
                 None => self.0.push(PassTime { pass, seconds }),

@@ -45,7 +45,7 @@ impl Records {
 }
 
 /// Whether a form needs the triangle's solid angle.
-fn needs_corners(form: TriangleForm) -> bool {
+pub(crate) fn needs_corners(form: TriangleForm) -> bool {
     matches!(form, TriangleForm::SolidAngle | TriangleForm::Scaled | TriangleForm::Point)
 }
 
@@ -64,15 +64,11 @@ pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<Gather
         Approximation::Exact(_) => (include_str!("shaders/exact.wesl"), None),
         Approximation::Sphere(form) => (include_str!("shaders/sphere.wesl"), Some(form)),
     };
-    let ones = vec!["1.0"; bands].join(", ");
     let made = [
         ("sh", wgsl::module(bands, &[Function::CapScalesOf, Function::EvaluateEven])),
         ("diffuse", diffuse::module(bands, Damping::None)),
         ("lobe", lobe_wgsl::module(bands, Form::Full)),
-        (
-            "points",
-            format!("fn point_scales() -> array<f32, {bands}> {{ return array({ones}); }}\n"),
-        ),
+        ("points", points_module(bands)),
         ("polygon", polygon_module(kinds, bands)),
     ];
     let made = made.each_ref().map(|(name, text)| (*name, &**text));
@@ -88,6 +84,22 @@ pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<Gather
         kinds.features(Form::Full)
     };
     let features = [
+        // Kernels read the tables of harmonics alone.
+        ("measured", false),
+    ];
+    EstimatorShader {
+        estimator,
+        modules: &[&made[..], &own, &IRRADIANCE, &MODULES].concat(),
+        features: &[&features[..], &form_features(form), &of_receivers].concat(),
+        capacity: CAPACITY,
+        bindings: PointBindings { settings: &[], tables: table_names(kinds, settings) },
+    }
+    .link()
+}
+
+/// The switches of triangle.wesl, for a sphere's form or for exact edges.
+pub(crate) fn form_features(form: Option<TriangleForm>) -> [(&'static str, bool); 7] {
+    [
         ("main", form == Some(TriangleForm::Main)),
         ("solid_angle", form == Some(TriangleForm::SolidAngle)),
         ("compromise", form == Some(TriangleForm::Compromise)),
@@ -95,17 +107,13 @@ pub fn linked_shader(kinds: ReceiverKinds, settings: &Settings) -> Result<Gather
         ("scaled", form == Some(TriangleForm::Scaled)),
         ("point", form == Some(TriangleForm::Point)),
         ("corners", form.is_some_and(needs_corners)),
-        // Kernels read the tables of harmonics alone.
-        ("measured", false),
-    ];
-    EstimatorShader {
-        estimator,
-        modules: &[&made[..], &own, &IRRADIANCE, &MODULES].concat(),
-        features: &[&features[..], &of_receivers].concat(),
-        capacity: CAPACITY,
-        bindings: PointBindings { settings: &[], tables: table_names(kinds, settings) },
-    }
-    .link()
+    ]
+}
+
+/// c_l of a point.
+pub(crate) fn points_module(bands: usize) -> String {
+    let ones = vec!["1.0"; bands].join(", ");
+    format!("fn point_scales() -> array<f32, {bands}> {{ return array({ones}); }}\n")
 }
 
 /// What exact edges meet the lobes with.

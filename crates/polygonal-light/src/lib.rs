@@ -120,24 +120,28 @@
 //! of scenes without narrow lobes do not change.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
+mod bake;
 mod exact;
 mod gather;
 mod light_record;
 mod operations;
 pub mod oracle;
 mod params;
+mod projection;
 
-use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables};
-use manylights_gpu::Buffer;
-use manylights_method::{Error, ParameterInfo, Parameters, Run};
-use manylights_reflectance::{Materials, Tables};
+use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS};
+use manylights_interpolation::{InterpolatedRun, LightGrid, Pixels};
+use manylights_method::{CounterInfo, Error, ParameterInfo, Parameters, Run};
+use manylights_reflectance::Materials;
 use manylights_scene::AreaLight;
 
+pub use bake::LobeTables;
 pub use gather::{gather, linked_shader};
 pub use manylights_area_lights::{Edges, Narrow};
 pub use manylights_harmonics::zonal::TriangleForm;
 pub use operations::{ExactOperations, exact_operations, record_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};
+pub use projection::project;
 
 use gather::Records;
 
@@ -152,6 +156,8 @@ impl Estimator for PolygonalLights {
     const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     const TAKES: &'static str = "triangles";
+    const COUNTERS: &'static [CounterInfo] =
+        &[LIGHTS, manylights_interpolation::COUNTERS[0], manylights_interpolation::COUNTERS[1]];
     type Tables = LobeTables;
 
     fn takes(light: &AreaLight) -> bool {
@@ -169,8 +175,17 @@ impl Estimator for PolygonalLights {
         let shader = linked_shader(kinds, &settings)?;
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
-        let (operations, count) = (record_operations(kinds, &settings), lights.len());
-        Ok(match Records::new(&lights, kinds, &settings) {
+        let grid = tables.grid.as_ref().map(|grid| {
+            let results = gather.results();
+            let (surfaces, count) = surfaces;
+            let tables = &tables.on_gpu;
+            let pixels = Pixels { surfaces, count, camera: eye, tables, results };
+            grid.part(on_gpu.gpu(), kinds, &pixels, lights.len())
+        });
+        let grid = grid.transpose()?;
+        let gathered = tables.grid.as_ref().map_or(&lights[..], LightGrid::near);
+        let (operations, count) = (record_operations(kinds, &settings), gathered.len());
+        let gather: Box<dyn Run> = match Records::new(gathered, kinds, &settings) {
             Records::Exact(records) => {
                 Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
             }
@@ -183,26 +198,7 @@ impl Estimator for PolygonalLights {
             Records::Outlined(records) => {
                 Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
             }
-        })
-    }
-}
-
-/// The lobes of a scene's materials, on the adapter: the bake.
-pub struct LobeTables {
-    on_gpu: Vec<Buffer>,
-    count: u64,
-}
-
-impl SceneTables for LobeTables {
-    fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
-        let settings = Settings::new(parameters);
-        settings.narrow.check(frame.scene)?;
-        let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
-        let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
-        Ok(Self { on_gpu, count: receivers.count() })
-    }
-
-    fn count(&self) -> u64 {
-        self.count
+        };
+        Ok(Box::new(InterpolatedRun::new(gather, grid)))
     }
 }

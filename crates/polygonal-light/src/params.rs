@@ -1,5 +1,6 @@
 use manylights_area_lights::{BANDS, Edges, Narrow};
 use manylights_harmonics::zonal::TriangleForm;
+use manylights_interpolation::Interpolation;
 use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
 
 pub(crate) const PARAMETERS: &[ParameterInfo] = &[
@@ -68,6 +69,11 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
             ],
         },
     },
+    Interpolation::SCHEME,
+    Interpolation::GRID,
+    Interpolation::BOUNDS,
+    Interpolation::LOOPS,
+    Interpolation::READING,
 ];
 
 const NARROW: [(&str, Narrow); 3] =

@@ -16,7 +16,7 @@ use crate::cap_table::{self, COEFFICIENTS, CapTable};
 use crate::{Coefficients, Extent, Product, Settings};
 
 /// Spheres a batch.
-const CAPACITY: usize = 512;
+pub(crate) const CAPACITY: usize = 512;
 
 /// A sphere of light as the shader reads it: 32 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

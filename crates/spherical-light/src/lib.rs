@@ -59,24 +59,28 @@
 //! - Tabulated coefficients: the papers do not say over what; here [`cap_table`].
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
+mod bake;
 pub mod cap_table;
 mod gather;
 pub mod oracle;
 mod params;
+mod projection;
 
 use manylights_area_lights::{
-    AreaGather, AreaLightFrame, AreaLightRun, Estimator, SceneTables, TRANSFORMED_OPERATIONS,
+    AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS, TRANSFORMED_OPERATIONS,
     cap_operations,
 };
-use manylights_gpu::Buffer;
-use manylights_method::{Error, ParameterInfo, Parameters, Run};
-use manylights_reflectance::{Materials, Tables};
+use manylights_interpolation::{InterpolatedRun, LightGrid, Pixels};
+use manylights_method::{CounterInfo, Error, ParameterInfo, Parameters, Run};
+use manylights_reflectance::Materials;
 use manylights_scene::AreaLight;
 
+pub use bake::LobeTables;
 pub use gather::{SphereLight, gather, linked_shader};
 pub use manylights_area_lights::Narrow;
 pub use manylights_reflectance::{CosineProduct, Diffuse};
 pub use params::{Coefficients, Extent, MAX_BANDS, Product, Settings};
+pub use projection::linked_projection;
 
 /// The method is `AreaLights(SphericalLights)`.
 #[derive(Clone, Copy, Debug)]
@@ -89,6 +93,8 @@ impl Estimator for SphericalLights {
     const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     const TAKES: &'static str = "spheres";
+    const COUNTERS: &'static [CounterInfo] =
+        &[LIGHTS, manylights_interpolation::COUNTERS[0], manylights_interpolation::COUNTERS[1]];
     type Tables = LobeTables;
 
     fn takes(light: &AreaLight) -> bool {
@@ -106,56 +112,20 @@ impl Estimator for SphericalLights {
         let shader = linked_shader(kinds, &settings)?;
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
+        let grid = tables.grid.as_ref().map(|grid| {
+            let results = gather.results();
+            let (surfaces, count) = surfaces;
+            let tables = &tables.on_gpu;
+            let pixels = Pixels { surfaces, count, camera: eye, tables, results };
+            grid.part(on_gpu.gpu(), kinds, &pixels, lights.len())
+        });
+        let grid = grid.transpose()?;
+        let gathered = tables.grid.as_ref().map_or(&lights[..], LightGrid::near);
+        let records: Vec<_> = gathered.iter().filter_map(SphereLight::of).collect();
         let transformed = gather::transformed(kinds, &settings);
         let operations = cap_operations(kinds, settings.bands)
             + if transformed { TRANSFORMED_OPERATIONS } else { 0 };
-        let records: Vec<_> = lights.iter().filter_map(SphereLight::of).collect();
-        Ok(Box::new(AreaLightRun::new(on_gpu, gather, (records, lights.len()), operations)))
+        let gather = AreaLightRun::new(on_gpu, gather, (records, gathered.len()), operations);
+        Ok(Box::new(InterpolatedRun::new(Box::new(gather), grid)))
     }
-}
-
-/// The lobes of a scene's materials, and the coefficients of caps where they are tabulated, on the adapter:
-/// the bake.
-pub struct LobeTables {
-    on_gpu: Vec<Buffer>,
-    count: u64,
-}
-
-impl SceneTables for LobeTables {
-    fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error> {
-        let settings = Settings::new(parameters);
-        refuse_long_products(&settings)?;
-        refuse_transformed_products(&settings)?;
-        settings.narrow.check(frame.scene)?;
-        let (materials, receivers) = (Materials::of_scene(frame.scene), Tables::new());
-        let on_gpu = gather::tables(frame.on_gpu.gpu(), &materials, &settings, &receivers)?;
-        let of_caps = u64::from(settings.coefficients == Coefficients::Tabulated);
-        Ok(Self { on_gpu, count: receivers.count() + of_caps })
-    }
-
-    fn count(&self) -> u64 {
-        self.count
-    }
-}
-
-/// Light by light alone a lobe is met as it is.
-fn refuse_transformed_products(settings: &Settings) -> Result<(), Error> {
-    if settings.narrow != Narrow::Transformed || settings.product == Product::Full {
-        return Ok(());
-    }
-    Err(Error::Declined("transforms narrow lobes light by light: --set product=full".into()))
-}
-
-fn refuse_long_products(settings: &Settings) -> Result<(), Error> {
-    let Settings { product: Product::Cosine(product), bands, .. } = *settings else {
-        return Ok(());
-    };
-    let most = product.most_bands();
-    if bands <= most {
-        return Ok(());
-    }
-    Err(Error::Declined(format!(
-        "multiplies at most {most} bands by the cosine's expansion, whose integrals grow as bands⁵: --set \
-         bands={most}, or product=4.6"
-    )))
 }

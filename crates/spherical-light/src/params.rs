@@ -1,4 +1,5 @@
 use manylights_area_lights::{BANDS, Narrow};
+use manylights_interpolation::Interpolation;
 use manylights_method::{ChoiceWord, ParameterInfo, ParameterKind, Parameters};
 use manylights_reflectance::{CosineProduct, Diffuse};
 
@@ -99,6 +100,11 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
             ],
         },
     },
+    Interpolation::SCHEME,
+    Interpolation::GRID,
+    Interpolation::BOUNDS,
+    Interpolation::LOOPS,
+    Interpolation::READING,
 ];
 
 const NARROW: [(&str, Narrow); 3] =

@@ -4,17 +4,16 @@
 use crate::common::{DIRECT, GPU, scene};
 use manylights_area_lights::AreaLights;
 use manylights_gpu::GpuFrame;
-use manylights_method::{Frame, Method, Parameters};
+use manylights_method::{Dependencies, Frame, Method, Parameters};
 use manylights_spherical_light::SphericalLights;
 
 #[test]
 fn every_bake_makes_all_of_its_tables() {
     let method = AreaLights(SphericalLights);
     let baking = method.baking().expect("tables");
-    assert!(baking.depends_on().scene && baking.depends_on().amount);
-    assert!(
-        !baking.depends_on().camera && !baking.depends_on().seed && !baking.depends_on().lights
-    );
+    let defaults = Parameters::defaults(method.parameters());
+    let of_tables = Dependencies { scene: true, amount: true, ..Dependencies::default() };
+    assert_eq!(baking.depends_on(&defaults), of_tables);
     let scene = scene(3);
     let (camera, resolution) = (&scene.cameras[0], [16, 12]);
     let on_gpu = GpuFrame::new(&GPU, &scene, camera, resolution).expect("the scene fits");
@@ -29,7 +28,7 @@ fn every_bake_makes_all_of_its_tables() {
         // The run keeps what it needs.
         drop(bake);
         while !run.step().expect("a step").finished() {}
-        assert_eq!(run.counters(), [("lights", 3)]);
+        assert_eq!(run.counters(), [("lights", 3), ("near_lights", 0), ("pixels_outside", 0)]);
         let passes: Vec<_> = run.pass_times().iter().map(|time| time.pass).collect();
         assert_eq!(passes, ["upload", "gather", "submit"]);
         (counters[0].1, run.resolve().expect("a picture").pixels)

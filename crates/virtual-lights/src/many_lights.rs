@@ -124,11 +124,11 @@ impl<M: Estimator> Method for VirtualLights<M> {
 }
 
 impl<M: Estimator> Baking for VirtualLights<M> {
-    fn depends_on(&self) -> Dependencies {
+    fn depends_on(&self, _: &Parameters) -> Dependencies {
         Dependencies { scene: true, ..Dependencies::default() }
     }
 
-    fn processor(&self) -> Processor {
+    fn processor(&self, _: &Parameters) -> Processor {
         Processor::Cpu
     }
 

@@ -85,6 +85,16 @@ impl<R: Real> PolygonProjection<R> {
         self.bands
     }
 
+    /// d_k, 2 bands − 1 unit vectors; the first 2l + 1 serve band l.
+    pub fn directions(&self) -> &[[R; 3]] {
+        &self.directions
+    }
+
+    /// A_l, row m and column k, band after band.
+    pub fn inverses(&self) -> &[R] {
+        &self.inverses
+    }
+
     /// Of no polygon.
     pub fn zero(&self) -> ZonalIntegrals<R> {
         let size = self.bands * self.directions.len();

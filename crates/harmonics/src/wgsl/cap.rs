@@ -1,6 +1,6 @@
 //! Cap scales in a form that keeps its digits for small caps and for many bands.
 //!
-//! c_0 = 2π s²/(1 + α), c_l = 2π s² P'_l(α)/(l(l + 1)), d ∂c_l/∂d = −2π s² P_l(α)/α, from thesis
+//! c_0 = 2π s²/(1 + α), c_l = 2π s² P'_l(α)/(l(l + 1)), ∂c_l/∂α = −2π P_l(α), from thesis
 //! 3.10 and 3.32 by (1 − x²)P'_l = l(l + 1)(P_{l−1} − P_{l+1})/(2l + 1).
 //!
 //! Deviation: where α → 1 the three-term recurrences of P_l and P'_l lose a digit every few bands.
@@ -20,10 +20,10 @@ pub(super) fn scales_of_both(bands: usize) -> Lines {
     lines.give_array("f32", &values)
 }
 
+/// Of sine and cosine, with the derivatives by the cosine, which step alike.
 pub(super) fn scales_with_rate(bands: usize) -> Lines {
-    let (mut lines, values) = name_scales(bands, false);
-    // Inside, the scales are constant; outside, α ≥ 3e-4 in f32.
-    lines.bind("r0", "select(0.0, -k / cosine, sine < 1.0)");
+    let (mut lines, values) = name_scales(bands, true);
+    lines.bind("r0", Factor::Constant(-std::f64::consts::TAU));
     name_differences(&mut lines, "r", "f", 0, bands, |l| (l, 2.0 * l + 1.0, l + 1.0));
     let pairs = values.iter().enumerate().map(|(l, value)| format!("vec2f({value}, r{l})"));
     lines.give_array("vec2f", &pairs.collect::<Vec<_>>())

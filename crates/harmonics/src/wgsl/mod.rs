@@ -12,6 +12,7 @@ mod basis;
 mod cap;
 mod gradient;
 mod lines;
+pub mod order;
 pub mod polygon;
 mod product;
 mod rotation;
@@ -38,8 +39,8 @@ pub enum Function {
     /// `cap_scales_of(sine: f32, cosine: f32) -> array<f32, n>`: the same of both, for caps near the
     /// hemisphere, whose cosine a rounded sine does not tell.
     CapScalesOf,
-    /// `cap_scales_with_rate(sine: f32) -> array<vec2f, n>`: c_l and d·∂c_l/∂d; inside the sphere,
-    /// where c_l is constant, the second is 0.
+    /// `cap_scales_with_rate(sine: f32, cosine: f32) -> array<vec2f, n>`: c_l and ∂c_l/∂cos a = −2π
+    /// P_l(cos a), which times a gradient of the cosine is that of c_l, whatever tells the cap.
     CapScalesWithRate,
     /// `sh_dot(a: array<f32, N>, b: array<f32, N>) -> f32`: the double product (thesis 2.46).
     Dot,
@@ -74,6 +75,9 @@ pub enum Function {
     /// array<vec3f, H>`: what a function is in the frame of these axes (x, y, z), its half even in y, by
     /// [`crate::rotation::Zxzxz`].
     TurnEven,
+    /// `sh_spread_even(tangent: vec3f, bitangent: vec3f, normal: vec3f, a: array<f32, H>) -> array<f32, N>`:
+    /// what a function that is even in y in the frame of these axes is outside of it: the adjoint of `TurnEven`.
+    SpreadEven,
 }
 
 /// Bands of the clamped cosine that hold most of it (thesis 4.1.3, l₂ < 3).
@@ -91,7 +95,7 @@ pub struct Generated {
 
 impl Function {
     /// All of them.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Evaluate,
         Self::EvaluateEven,
         Self::EvaluateWithGradient,
@@ -110,6 +114,7 @@ impl Function {
         Self::ClampedCosine,
         Self::ClampedCosineEven,
         Self::TurnEven,
+        Self::SpreadEven,
     ];
 
     /// The declaration for `bands` ≥ 1 bands.
@@ -136,7 +141,7 @@ impl Function {
                 cap::scales_of_both(n),
             ),
             Self::CapScalesWithRate => (
-                format!("cap_scales_with_rate(sine: f32) -> array<vec2f, {n}>"),
+                format!("cap_scales_with_rate(sine: f32, cosine: f32) -> array<vec2f, {n}>"),
                 cap::scales_with_rate(n),
             ),
             Self::Dot => (
@@ -208,6 +213,13 @@ impl Function {
                      a: array<vec3f, {all}>) -> array<vec3f, {half}>"
                 ),
                 rotation::turn_even(n),
+            ),
+            Self::SpreadEven => (
+                format!(
+                    "sh_spread_even(tangent: vec3f, bitangent: vec3f, normal: vec3f, \
+                     a: array<f32, {half}>) -> array<f32, {all}>"
+                ),
+                rotation::spread_even(n),
             ),
         };
         body.function(&signature)

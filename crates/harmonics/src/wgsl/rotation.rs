@@ -10,25 +10,13 @@ const SMALLEST_SINE: f32 = f32::EPSILON * f32::EPSILON;
 /// The last turn leaves out m < 0.
 pub(super) fn turn_even(bands: usize) -> Lines {
     let mut lines = Lines::default();
-    if bands > 1 {
-        lines.bind("sb1", "sqrt(tangent.z * tangent.z + bitangent.z * bitangent.z)");
-        lines.bind("cb1", "normal.z");
-        lines.bind("sa1", format_args!("select(0.0, bitangent.z / sb1, {SMALLEST_SINE:?} < sb1)"));
-        lines.bind("ca1", format_args!("select(1.0, tangent.z / sb1, {SMALLEST_SINE:?} < sb1)"));
-        lines.bind("sc1", "ca1 * bitangent.x - sa1 * tangent.x");
-        lines.bind("cc1", "ca1 * bitangent.y - sa1 * tangent.y");
-        for angle in ["a", "b", "c"] {
-            name_multiples(&mut lines, angle, bands);
-        }
-    }
+    name_turns(&mut lines, bands, false);
     let given: Vec<_> = (0..count(bands)).map(|i| Factor::element("a", i)).collect();
     let quarter = Zxzxz::<f64>::new(bands);
     let once = about_z(&mut lines, "c", bands, &given);
-    let tilted = about_x(&mut lines, "t", once.len(), quarter.non_zeros(), &once);
+    let tilted = about_x(&mut lines, "t", quarter.non_zeros(), &once);
     let twice = about_z(&mut lines, "b", bands, &tilted);
-    // The inverse of an orthogonal matrix is its transpose.
-    let back = quarter.non_zeros().map(|(row, column, value)| (column, row, value));
-    let back = about_x(&mut lines, "u", twice.len(), back, &twice);
+    let back = about_x(&mut lines, "u", transposed(&quarter), &twice);
     let mut halves = vec![String::new(); even_count(bands)];
     for l in 0..bands {
         for m in 0..=l {
@@ -36,6 +24,58 @@ pub(super) fn turn_even(bands: usize) -> Lines {
         }
     }
     lines.give_array("vec3f", &halves)
+}
+
+/// The adjoint: the same turns backwards, in the opposite order.
+pub(super) fn spread_even(bands: usize) -> Lines {
+    let mut lines = Lines::default();
+    name_turns(&mut lines, bands, true);
+    let mut given = vec![Factor::Constant(0.0); count(bands)];
+    for l in 0..bands {
+        for m in 0..=l {
+            let half = Factor::element("a", even_index(l, m));
+            if m == 0 {
+                given[index(l, 0)] = half;
+                continue;
+            }
+            let [up, down] = [index(l, m as isize), index(l, -(m as isize))];
+            given[up] = lines.bind(&format!("a{up}"), format_args!("ca{m} * {half}"));
+            given[down] = lines.bind(&format!("a{down}"), format_args!("sa{m} * {half}"));
+        }
+    }
+    let quarter = Zxzxz::<f64>::new(bands);
+    let tilted = about_x(&mut lines, "t", quarter.non_zeros(), &given);
+    let turned = about_z(&mut lines, "b", bands, &tilted);
+    let back = about_x(&mut lines, "u", transposed(&quarter), &turned);
+    let spread = about_z(&mut lines, "c", bands, &back);
+    lines.give_array("f32", &spread.iter().map(Factor::to_string).collect::<Vec<_>>())
+}
+
+/// Of the angles of [`Zxzxz`], or of their opposites.
+fn name_turns(lines: &mut Lines, bands: usize, is_back: bool) {
+    if bands == 1 {
+        return;
+    }
+    let sign = if is_back { "-" } else { "" };
+    lines.bind("tilt", "sqrt(tangent.z * tangent.z + bitangent.z * bitangent.z)");
+    let of_tilt = |zero: &str, component: &str| {
+        format!("select({zero}, {component} / tilt, {SMALLEST_SINE:?} < tilt)")
+    };
+    lines.bind("sine", of_tilt("0.0", "bitangent.z"));
+    lines.bind("ca1", of_tilt("1.0", "tangent.z"));
+    lines.bind("sa1", format_args!("{sign}sine"));
+    lines.bind("sb1", format_args!("{sign}tilt"));
+    lines.bind("cb1", "normal.z");
+    lines.bind("sc1", format_args!("{sign}(ca1 * bitangent.x - sine * tangent.x)"));
+    lines.bind("cc1", "ca1 * bitangent.y - sine * tangent.y");
+    for angle in ["a", "b", "c"] {
+        name_multiples(lines, angle, bands);
+    }
+}
+
+/// The inverse of an orthogonal matrix.
+fn transposed(quarter: &Zxzxz<f64>) -> impl Iterator<Item = (usize, usize, f64)> {
+    quarter.non_zeros().map(|(row, column, value)| (column, row, value))
 }
 
 /// Sines and cosines of m times an angle, from those of the angle.
@@ -77,11 +117,10 @@ fn about_z(lines: &mut Lines, angle: &str, bands: usize, before: &[Factor]) -> V
 fn about_x(
     lines: &mut Lines,
     name: &str,
-    size: usize,
     non_zeros: impl Iterator<Item = (usize, usize, f64)>,
     before: &[Factor],
 ) -> Vec<Factor> {
-    let mut rows = vec![Vec::new(); size];
+    let mut rows = vec![Vec::new(); before.len()];
     for (row, column, value) in non_zeros {
         let factors = [&Factor::Constant(value.abs()), &before[column]];
         rows[row].push((value > 0.0, product(&factors)));

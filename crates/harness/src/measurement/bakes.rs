@@ -108,7 +108,7 @@ impl Bakes {
         wanted: &Wanted<'_>,
         with_frame: WithFrame<'_>,
     ) -> Result<(&dyn Bake, BakeCost), Error> {
-        let depends = wanted.baking.depends_on();
+        let depends = wanted.baking.depends_on(wanted.parameters);
         let earlier = self.take(wanted).filter(|baked| {
             let before = !depends.camera || baked.camera <= wanted.camera;
             before && unchanged(depends, &baked.origin, &wanted.origin)
@@ -152,7 +152,7 @@ impl Bakes {
     }
 
     fn take(&mut self, wanted: &Wanted<'_>) -> Option<Baked> {
-        let by_seed = wanted.baking.depends_on().seed;
+        let by_seed = wanted.baking.depends_on(wanted.parameters).seed;
         let place = self.baked.iter().position(|baked| {
             baked.variant == wanted.variant && (!by_seed || baked.origin.seed == wanted.origin.seed)
         })?;
@@ -161,8 +161,9 @@ impl Bakes {
 
     /// Drivers compile at the first dispatch: what is made then is thrown away.
     fn warm_up(&mut self, wanted: &Wanted<'_>, with_frame: WithFrame<'_>) -> Result<(), Error> {
-        let grows = wanted.baking.depends_on().camera && wanted.camera > 0;
-        if wanted.baking.processor() == Processor::Gpu && self.warm.insert((wanted.variant, grows))
+        let grows = wanted.baking.depends_on(wanted.parameters).camera && wanted.camera > 0;
+        if wanted.baking.processor(wanted.parameters) == Processor::Gpu
+            && self.warm.insert((wanted.variant, grows))
         {
             make(wanted, None, wanted.camera.min(1), with_frame)?;
         }
@@ -186,7 +187,7 @@ fn make(
     with_frame: WithFrame<'_>,
 ) -> Result<Baked, Error> {
     let Wanted { variant, baking, parameters, .. } = *wanted;
-    let by_camera = baking.depends_on().camera;
+    let by_camera = baking.depends_on(parameters).camera;
     let start = earlier.as_ref().map_or(if by_camera { 0 } else { last }, |baked| baked.camera + 1);
     let mut baked = earlier;
     for camera in start..=last {

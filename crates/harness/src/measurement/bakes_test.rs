@@ -112,11 +112,11 @@ impl Method for &'static Baker {
 }
 
 impl Baking for &'static Baker {
-    fn depends_on(&self) -> Dependencies {
+    fn depends_on(&self, _: &Parameters) -> Dependencies {
         self.depends
     }
 
-    fn processor(&self) -> Processor {
+    fn processor(&self, _: &Parameters) -> Processor {
         self.processor
     }
 

@@ -70,9 +70,9 @@ impl Session<'_> {
         let turns = interleaved(variants, &scale.seeds, scale.repetitions);
         let content = manylights_scene::content_hash(scene, stage.camera);
         let hashes = SceneHashes::new(scene);
-        let method = |variant: usize| experiment.variants[variant].method;
         self.bakes.keep_for(&hashes, |variant| {
-            method(variant).baking().map(|baking| baking.depends_on()).unwrap_or_default()
+            let Variant { method, parameters, .. } = &experiment.variants[variant];
+            method.baking().map(|baking| baking.depends_on(parameters)).unwrap_or_default()
         });
         let amounts = self.replayed_amounts(scene, name);
         let mut run = SceneRun {

@@ -1,6 +1,6 @@
 //! Sweeps: from lists of values to variants.
 
-use manylights_method::Method;
+use manylights_method::{Method, Parameters};
 use manylights_scene::Visibility;
 use serde::Deserialize;
 
@@ -128,7 +128,8 @@ impl MethodEntry {
         let Some(bounded) = self.budget.bounded() else { return Ok(&[Budget::Count]) };
         let (id, word) = (&self.id, bounded.word());
         let refuse = |reason: String| Err(format!("methods: `{id}` has a {word} budget, {reason}"));
-        let builds = || method.baking().is_some_and(|baking| baking.depends_on().amount);
+        let defaults = Parameters::defaults(method.parameters());
+        let builds = || method.baking().is_some_and(|baking| baking.depends_on(&defaults).amount);
         // Without an amount of work there is nothing to search: one run tells its time.
         let Some(cost) = method.cost().map(|cost| cost.parameter) else {
             return Ok(&[Budget::Count]);

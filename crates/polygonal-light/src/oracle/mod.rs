@@ -1,6 +1,7 @@
 //! The same estimator in f64 on the CPU.
 
 mod polygon;
+mod vertices;
 
 use glam::DVec3;
 use manylights_area_lights::transformed_triangle;
@@ -9,6 +10,8 @@ use manylights_harmonics::zonal::{TriangleForm, TriangleSighting};
 use manylights_reflectance::transformed_cosine::{TransformedCosine, of_surface};
 use manylights_reflectance::{Damping, Form, Receiver, is_narrow};
 use manylights_scene::AreaLight;
+
+pub use vertices::coefficients;
 
 use crate::{Approximation, Narrow, Settings};
 

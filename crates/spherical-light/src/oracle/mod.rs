@@ -1,5 +1,7 @@
 //! The same estimator in f64 on the CPU.
 
+mod vertices;
+
 use glam::DVec3;
 use manylights_area_lights::transformed_cap;
 use manylights_gpu::SurfaceRecord;
@@ -7,6 +9,8 @@ use manylights_harmonics::zonal::{Cap, cap_stable};
 use manylights_reflectance::product_oracle::ProductReceiver;
 use manylights_reflectance::transformed_cosine::of_surface;
 use manylights_reflectance::{Damping, Form, Receiver, is_narrow};
+
+pub use vertices::coefficients;
 
 use crate::cap_table::CapTable;
 use crate::{Coefficients, Extent, Narrow, Product, Settings, SphereLight};

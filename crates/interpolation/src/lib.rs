@@ -1,0 +1,38 @@
+//! Coefficients of spherical harmonics at the vertices of a regular grid, interpolated between them (thesis
+//! 3.3.4; Wu et al. 2020; Annen et al. 2004).
+//!
+//! On the adapter they lie in a buffer of `vec4f`, in the world's frame, all n² of each vertex:
+//! - with gradients at ((vertex n² + i) 3 + channel), the value and its three derivatives by a cell, ∂x h_x, ∂y
+//!   h_y, ∂z h_z;
+//! - without at vertex n² + i, red, green, blue and 0.
+#![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
+#![forbid(unsafe_code)]
+
+mod extent;
+mod grid;
+mod light_grid;
+mod near;
+pub mod oracle;
+mod parameters;
+mod projection;
+mod reading;
+mod reading_wgsl;
+mod run;
+mod scheme;
+mod settings;
+mod shader;
+mod sorted;
+mod sorted_wgsl;
+mod view;
+
+pub use grid::{Grid, Place};
+pub use light_grid::{LightGrid, Lit};
+pub use near::Reach;
+pub use parameters::{Bounds, Interpolation};
+pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};
+pub use reading::Reading;
+pub use run::{COUNTERS, GridPart, InterpolatedRun};
+pub use scheme::{CORNERS, Scheme, Weights};
+pub use settings::{Order, Settings};
+pub use shader::Shader;
+pub use view::Pixels;

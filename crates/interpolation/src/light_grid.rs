@@ -1,0 +1,85 @@
+//! The lights of a picture that a grid holds, and those that it does not.
+
+use std::time::Instant;
+
+use manylights_gpu::{Buffer, Error, Gpu, PassTime};
+use manylights_method::PassTimes;
+use manylights_reflectance::ReceiverKinds;
+use manylights_scene::{AreaLight, Scene};
+
+use crate::{Grid, GridCoefficients, GridPart, Interpolation, Pixels, Reach, Reading, Settings};
+
+/// Coefficients of the lights that are far from the vertices of a grid, on the adapter, and the others.
+pub struct LightGrid {
+    how: Interpolation,
+    coefficients: GridCoefficients,
+    near: Vec<AreaLight>,
+    times: PassTimes,
+}
+
+/// A picture to be baked for.
+pub struct Lit<'a> {
+    /// The adapter.
+    pub gpu: &'a Gpu,
+    /// What is lit.
+    pub scene: &'a Scene,
+    /// What pixels see, the first so many of them.
+    pub surfaces: (&'a Buffer, u32),
+    /// By what.
+    pub lights: &'a [AreaLight],
+}
+
+impl LightGrid {
+    /// `project` makes coefficients of lights at the vertices of a grid.
+    ///
+    /// # Errors
+    /// Those of `project`, and where the device gave up.
+    pub fn new(
+        how: Interpolation,
+        lit: &Lit<'_>,
+        project: impl Fn(Grid<f32>, &[AreaLight]) -> Result<(GridCoefficients, Vec<PassTime>), Error>,
+    ) -> Result<Self, Error> {
+        let start = Instant::now();
+        let grid = how.grid(lit.gpu, lit.scene, lit.surfaces)?;
+        let reach = Reach::new(&grid);
+        let (near, far): (Vec<_>, Vec<_>) =
+            lit.lights.iter().copied().partition(|light| reach.meets(light));
+        let (coefficients, passes) = project(grid, &far)?;
+        let mut times = PassTimes::default();
+        times.add(&passes, "prepare grid", start);
+        Ok(Self { how, coefficients, near, times })
+    }
+
+    /// Lights that must be met at each pixel.
+    pub fn near(&self) -> &[AreaLight] {
+        &self.near
+    }
+
+    /// The time of each pass.
+    pub fn pass_times(&self) -> Vec<PassTime> {
+        self.times.list()
+    }
+
+    /// Takes over the time that this grid's forerunner took.
+    pub fn follow(&mut self, before: &Self) {
+        self.times.merge(&before.times);
+    }
+
+    /// What a picture of so many lights reads of it.
+    ///
+    /// # Errors
+    /// Where the adapter refuses a kernel or a buffer.
+    pub fn part(
+        &self,
+        gpu: &Gpu,
+        kinds: ReceiverKinds,
+        pixels: &Pixels<'_>,
+        lights: usize,
+    ) -> Result<GridPart, Error> {
+        let GridCoefficients { grid, bands, ref buffer, .. } = self.coefficients;
+        let Interpolation { scheme, order, .. } = self.how;
+        let settings = Settings { grid, scheme, bands, kinds, order };
+        let reading = Reading::new(gpu, &settings, buffer, pixels)?;
+        Ok(GridPart::new(reading, lights, self.near.len()))
+    }
+}

@@ -1,0 +1,60 @@
+//! What is read, and how.
+
+use manylights_harmonics::count;
+use manylights_reflectance::ReceiverKinds;
+
+use crate::{Grid, Scheme};
+
+/// Guaranteed bytes of a uniform binding.
+const UNIFORM_BYTES: usize = 1 << 16;
+
+/// What is read, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Where the vertices are, in the world.
+    pub grid: Grid<f32>,
+    /// Between them.
+    pub scheme: Scheme,
+    /// Of the light and of the lobes.
+    pub bands: usize,
+    /// The lobes that pixels have.
+    pub kinds: ReceiverKinds,
+    /// In which pixels are read.
+    pub order: Order,
+}
+
+/// In which pixels are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// Each by itself, its corners from storage.
+    Plain,
+    /// Cell by cell, so that all lanes read the same corners, from uniform memory; plain where a cell does not
+    /// fit there ([`Settings::is_sorted`]). The same radiance but for the last digits.
+    Sorted,
+}
+
+impl Settings {
+    /// Of a vertex, each a `vec4f`, in the frame of the world. With gradients three for each of bands²
+    /// coefficients, one a channel: the value, and its three derivatives times the grid's spacing. Without them
+    /// one, of red, green, blue and nothing. Vertices are in the order of the grid.
+    pub fn vectors(&self) -> usize {
+        let each = if self.scheme.reads_gradients() { 3 } else { 1 };
+        each * count(self.bands)
+    }
+
+    /// Whether pixels are sorted: up to 13 bands with gradients, whatever their number without.
+    pub fn is_sorted(&self) -> bool {
+        self.order == Order::Sorted && self.block_bytes() <= UNIFORM_BYTES
+    }
+
+    /// Of a cell with its eight corners, as uniform memory holds it.
+    pub(crate) fn block_bytes(&self) -> usize {
+        16 * (1 + 8 * self.vectors())
+    }
+
+    /// Of those that are sorted. The more, the more often a number that is loaded is used, and the longer the
+    /// kernel, which holds the turns of each one's specular lobe (`results/throughput/interpolation.md`).
+    pub(crate) fn pixels_a_lane(&self) -> usize {
+        if self.kinds.specular { 6 } else { 12 }
+    }
+}

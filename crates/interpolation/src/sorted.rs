@@ -1,0 +1,153 @@
+//! Pixels sorted by cell, each cell's corners in uniform memory.
+
+use std::sync::Arc;
+
+use manylights_gpu::{
+    Buffer, Error, Gpu, Kernel, Pass, PassTime, Resource, UniformBatches, workgroups,
+};
+
+use crate::shader::{LANES, Shader};
+use crate::{Pixels, Settings};
+
+/// Blocks of cells that are held at a time.
+const BLOCKS_BYTES: usize = 1 << 26;
+
+/// What reads pixels cell by cell: their order is found anew each time.
+pub(crate) struct Sorted {
+    cells: [u32; 3],
+    block_bytes: usize,
+    pixels_a_group: u32,
+    workgroups: [u32; 3],
+    count: Arc<Kernel>,
+    scatter: Arc<Kernel>,
+    assemble: Arc<Kernel>,
+    read: Arc<Kernel>,
+    view: Buffer,
+    coefficients: Buffer,
+    surfaces: Buffer,
+    results: Buffer,
+    tables: Vec<Buffer>,
+    /// Of each pixel among those of its cell.
+    places: Buffer,
+    outside: u32,
+}
+
+/// Where the pixels of cells stand in the order of all.
+struct Layout {
+    /// Of each cell the first.
+    firsts: Vec<u32>,
+    /// x, y, z and the first, of each cell that has pixels.
+    cells: Vec<[u32; 4]>,
+    /// Of the same.
+    pixels: Vec<u32>,
+    /// Places in all: the pixels of each cell fill whole workgroups.
+    length: u32,
+}
+
+impl Layout {
+    fn new([width, height, _]: [u32; 3], counts: &[u32], pixels_a_group: u32) -> Self {
+        let mut layout =
+            Self { firsts: Vec::new(), cells: Vec::new(), pixels: Vec::new(), length: 0 };
+        for (index, &count) in (0..).zip(counts) {
+            layout.firsts.push(layout.length);
+            if count == 0 {
+                continue;
+            }
+            let cell = [index % width, index / width % height, index / (width * height)];
+            layout.cells.push([cell[0], cell[1], cell[2], layout.length]);
+            layout.pixels.push(count);
+            layout.length += count.next_multiple_of(pixels_a_group);
+        }
+        layout
+    }
+}
+
+impl Sorted {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        settings: &Settings,
+        [view, coefficients]: [&Buffer; 2],
+        pixels: &Pixels<'_>,
+    ) -> Result<Self, Error> {
+        let block_bytes = settings.block_bytes();
+        let stride = UniformBatches::zeroed(gpu, "cells", block_bytes, 1)?.stride();
+        Ok(Self {
+            cells: settings.grid.vertices.map(|vertices| vertices as u32 - 1),
+            block_bytes,
+            pixels_a_group: LANES * settings.pixels_a_lane() as u32,
+            workgroups: workgroups(pixels.count, LANES),
+            count: Shader::count(settings)?.compile(gpu)?,
+            scatter: Shader::scatter(settings)?.compile(gpu)?,
+            assemble: Shader::assemble(settings, stride / 16)?.compile(gpu)?,
+            read: Shader::read(settings)?.compile(gpu)?,
+            view: view.clone(),
+            coefficients: coefficients.clone(),
+            surfaces: pixels.surfaces.clone(),
+            results: pixels.results.clone(),
+            tables: pixels.tables.to_vec(),
+            places: gpu.zeroed("places of pixels", 4 * u64::from(pixels.count))?,
+            outside: 0,
+        })
+    }
+
+    /// As [`Reading::outside`](crate::Reading::outside).
+    pub(crate) fn outside(&self) -> u32 {
+        self.outside
+    }
+
+    pub(crate) fn add(&mut self, gpu: &Gpu) -> Result<Vec<PassTime>, Error> {
+        let cells = self.cells.into_iter().product::<u32>() as usize;
+        // The pixels of each cell, and those outside.
+        let counts = gpu.zeroed("pixels of cells", 4 * (cells as u64 + 1))?;
+        let count = self.pass(gpu, "sort", &self.count, &[&self.places, &counts])?;
+        let mut times = gpu.run(&[count.over(self.workgroups)])?;
+        let counts: Vec<u32> = gpu.read(&counts)?;
+        self.outside += counts[cells];
+        let layout = Layout::new(self.cells, &counts[..cells], self.pixels_a_group);
+        let firsts = gpu.storage("first pixels of cells", &layout.firsts)?;
+        let order = gpu.zeroed("pixels in order", 4 * u64::from(layout.length))?;
+        let scatter = self.pass(gpu, "sort", &self.scatter, &[&self.places, &firsts, &order])?;
+        times.extend(gpu.run(&[scatter.over(self.workgroups)])?);
+        let most = BLOCKS_BYTES / self.block_bytes;
+        for (cells, pixels) in layout.cells.chunks(most).zip(layout.pixels.chunks(most)) {
+            times.extend(self.read(gpu, &order, cells, pixels)?);
+        }
+        Ok(times)
+    }
+
+    fn pass(
+        &self,
+        gpu: &Gpu,
+        name: &'static str,
+        kernel: &Arc<Kernel>,
+        own: &[&Buffer],
+    ) -> Result<Pass, Error> {
+        let resources = [&self.view, &self.surfaces].into_iter().chain(own.iter().copied());
+        gpu.pass(name, kernel, &resources.map(Resource::Buffer).collect::<Vec<_>>())
+    }
+
+    /// Of these cells with so many pixels each.
+    fn read(
+        &self,
+        gpu: &Gpu,
+        order: &Buffer,
+        cells: &[[u32; 4]],
+        pixels: &[u32],
+    ) -> Result<Vec<PassTime>, Error> {
+        let blocks = UniformBatches::zeroed(gpu, "cells", self.block_bytes, cells.len())?;
+        let of_cells = gpu.storage("cells with pixels", cells)?;
+        let own = [&self.view, &self.coefficients, &of_cells, blocks.buffer()];
+        let assemble = gpu.pass("assemble", &self.assemble, &own.map(Resource::Buffer))?;
+        let own = [&self.view, &self.surfaces, &self.results, order].map(Resource::Buffer);
+        let mut resources = own.to_vec();
+        resources.push(Resource::Batches(&blocks));
+        resources.extend(self.tables.iter().map(Resource::Buffer));
+        let read = gpu.pass("read", &self.read, &resources)?;
+        let of_cell =
+            |(index, &count): (usize, &u32)| (index, workgroups(count, self.pixels_a_group));
+        gpu.run(&[
+            assemble.over([cells.len() as u32, 1, 1]),
+            read.over_batches(pixels.iter().enumerate().map(of_cell)),
+        ])
+    }
+}

@@ -1,0 +1,9 @@
+//! All tests of this crate in one executable.
+
+mod common;
+mod grid;
+mod reading;
+mod schemes;
+
+#[path = "../../scene/tests/common/tensor.rs"]
+mod tensor;
