@@ -6,12 +6,17 @@
 //! variance/n and by the variance of the reference itself, both of which are subtracted. Where another
 //! method is the reference, the truth r_s changes with the seed: then it is X_s − r_s that is split, and
 //! the reference has no variance of its own.
+//!
+//! Intervals are the jackknife's (Efron and Tibshirani, "An Introduction to the Bootstrap", 11): both estimates
+//! again without each seed. To that of the bias the reference adds its own ([`Sample::reference_variance`]).
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use manylights_metrics::RadianceImage;
 
+use crate::answer::significance::{Estimate, Sample};
+use crate::answer::statistics::variance;
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
 use crate::measurement::pictures::image_path;
@@ -19,13 +24,13 @@ use crate::measurement::reference::SceneReference;
 use crate::measurement::scene_cells::SceneCells;
 use crate::question::plan::Turn;
 
-/// The two parts of an error, as roots of means over all components of all pixels, of sRGB values.
+/// The two parts of a squared error, as means over all components of all pixels, of sRGB values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Bias {
-    /// Root of the squared bias; zero where the estimate is not positive.
-    pub(crate) bias: f64,
-    /// Standard deviation over seeds.
-    pub(crate) deviation: f64,
+pub(crate) struct Split {
+    /// The squared bias; below zero by chance.
+    pub(crate) squared_bias: Estimate,
+    /// The variance over seeds.
+    pub(crate) variance: Estimate,
 }
 
 /// Splits the error of a variant by name of the reference; nothing below two seeds.
@@ -34,9 +39,10 @@ pub(crate) struct Bias {
 /// One line where a picture cannot be read.
 pub(crate) fn of_cells(
     cells: &[&(Turn, Cell)],
+    samples: &BTreeMap<String, Sample>,
     scene: &SceneCells,
     out: &Path,
-) -> Result<BTreeMap<String, Bias>, Failure> {
+) -> Result<BTreeMap<String, Split>, Failure> {
     let pictured = cells
         .iter()
         .filter(|(turn, cell)| turn.repetition == 0 && matches!(cell.outcome, Outcome::Done(_)));
@@ -53,35 +59,74 @@ pub(crate) fn of_cells(
         let truths = pictures.iter().map(|(seed, _)| reference.image_for(*seed));
         let truths: Vec<_> = truths.map(|truth| truth.display(scene.exposure)).collect();
         let pairs: Vec<_> = pictures.iter().map(|(_, picture)| picture).zip(&truths).collect();
-        (reference.name.clone(), split(&pairs, reference.display_floor))
+        let noise = samples.get(&reference.name).and_then(Sample::reference_variance);
+        (reference.name.clone(), split(&pairs, reference.display_floor, noise))
     };
     Ok(scene.references.iter().map(split).collect())
 }
 
-/// Of pictures, each with its truth.
-fn split(pairs: &[(&RadianceImage, &RadianceImage)], floor: f64) -> Bias {
-    let n = pairs.len() as f64;
+/// Of pictures, each with its truth. `noise` is what the reference adds to the variance of a squared error, with its
+/// degrees of freedom.
+pub(super) fn split(
+    pairs: &[(&RadianceImage, &RadianceImage)],
+    floor: f64,
+    noise: Option<(f64, f64)>,
+) -> Split {
+    let count = pairs.len();
     let components = pairs[0].0.pixels.as_flattened().len();
-    let (mut squared, mut variance) = (0.0, 0.0);
+    // Both parts of all seeds, then without each of them.
+    let (mut all, mut without) = ([0.0; 2], vec![[0.0; 2]; count]);
+    let mut errors = vec![0.0; count];
     for index in 0..components {
         let value = |image: &RadianceImage| f64::from(image.pixels.as_flattened()[index]);
-        let errors = || pairs.iter().map(|(picture, truth)| value(picture) - value(truth));
-        let mean = errors().sum::<f64>() / n;
-        let spread: f64 = errors().map(|error| (error - mean).powi(2)).sum();
-        squared += mean.powi(2);
-        variance += spread / (n - 1.0);
+        for (error, (picture, truth)) in errors.iter_mut().zip(pairs) {
+            *error = value(picture) - value(truth);
+        }
+        add(&mut all, &errors, None);
+        if count > 2 {
+            (0..count).for_each(|seed| add(&mut without[seed], &errors, Some(seed)));
+        }
     }
-    let count = components as f64;
-    let (squared, variance) = (squared / count, variance / count);
-    Bias {
-        bias: (squared - variance / n - floor * floor).max(0.0).sqrt(),
-        deviation: variance.sqrt(),
-    }
+    let scale = 1.0 / components as f64;
+    let [squared_bias, variance] = [0, 1].map(|part| {
+        let seeds: Vec<_> = without.iter().map(|parts| parts[part] * scale).collect();
+        let mut spread = vec![jackknife(&seeds)];
+        spread.extend(noise.filter(|_| part == 0));
+        let estimate = Estimate::new(all[part] * scale, &spread);
+        // Two seeds without one are no sample.
+        if count > 2 { estimate } else { Estimate { half: f64::INFINITY, ..estimate } }
+    });
+    let squared_bias = Estimate { value: squared_bias.value - floor.powi(2), ..squared_bias };
+    Split { squared_bias, variance }
+}
+
+/// Adds the squared bias and the variance of a component over seeds, but for one of them.
+fn add(parts: &mut [f64; 2], errors: &[f64], but: Option<usize>) {
+    let rest = || errors.iter().enumerate().filter(|(seed, _)| Some(*seed) != but);
+    let count = rest().count() as f64;
+    let mean = rest().map(|(_, error)| error).sum::<f64>() / count;
+    let spread: f64 = rest().map(|(_, error)| (error - mean).powi(2)).sum();
+    let variance = spread / (count - 1.0);
+    parts[0] += mean.powi(2) - variance / count;
+    parts[1] += variance;
+}
+
+/// The variance of an estimate from those without each of the seeds, and its degrees of freedom.
+fn jackknife(without: &[f64]) -> (f64, f64) {
+    let count = without.len() as f64;
+    ((count - 1.0).powi(2) / count * variance(without), count - 1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::answer::statistics::mean;
+
+    fn squared_error(picture: &RadianceImage, truth: &RadianceImage) -> f64 {
+        let [picture, truth] = [picture, truth].map(|image| image.pixels.as_flattened());
+        let squares = picture.iter().zip(truth).map(|(x, r)| f64::from(x - r).powi(2));
+        mean(squares.collect::<Vec<_>>().into_iter())
+    }
 
     /// The finaliser of SplitMix64: bits of neighbouring numbers are independent.
     fn splitmix(number: u64) -> u64 {
@@ -111,13 +156,19 @@ mod tests {
             let pixels = (0..64 * 64).map(|index| [0.5 + value(index); 3]).collect();
             let truth = RadianceImage { width: 64, height: 64, pixels };
             let pairs: Vec<_> = pictures.iter().map(|picture| (picture, &truth)).collect();
-            let Bias { bias, deviation } = split(&pairs, floor.into());
+            let Split { squared_bias, variance } = split(&pairs, floor.into(), None);
+            let [[bias, ..], [deviation, ..]] = [squared_bias, variance].map(|part| part.roots());
             // 4096 pixels of 8 seeds: both are known to about 1 %.
             assert!((bias - 0.1).abs() < 0.01, "{bias} beside {floor}");
             assert!((deviation - 0.2).abs() < 0.01, "{deviation} beside {floor}");
+            let squared = pairs.iter().map(|(picture, truth)| squared_error(picture, truth));
+            let whole = mean(squared) - f64::from(floor).powi(2);
+            let sum = squared_bias.value + variance.value;
+            assert!((sum - whole).abs() < 1e-9, "{sum} of {whole}");
         }
         // Against itself, seed by seed, nothing is left, whatever the noise.
         let own: Vec<_> = pictures.iter().map(|picture| (picture, picture)).collect();
-        assert_eq!(split(&own, 0.0), Bias { bias: 0.0, deviation: 0.0 });
+        let nothing = Estimate { value: 0.0, half: 0.0 };
+        assert_eq!(split(&own, 0.0, None), Split { squared_bias: nothing, variance: nothing });
     }
 }

@@ -168,7 +168,7 @@ mod tests {
         let [mse, mae, psnr, ssim, rel_mse, smape, rel_p999] = [0.0; 7];
         let errors = Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999 };
         let comparison =
-            Comparison { linear: errors, display: errors, linear_floor: 0.0, display_floor: 0.0 };
+            Comparison { linear: errors, display: errors, linear_floor: 0.0, display_floor: 0.0, tiles: None };
         let done = Done {
             amount: Some(4.0),
             visibility: None,

@@ -5,8 +5,10 @@ use std::path::Path;
 
 use manylights_metrics::{Errors, METRICS};
 
-use crate::answer::bias::{self, Bias};
-use crate::answer::statistics::{Quartiles, median, paired_difference, quartiles};
+use crate::answer::bias::{self, Split};
+use crate::answer::ranks::Rank;
+use crate::answer::significance::{Estimate, Sample, SeedError};
+use crate::answer::statistics::{Quartiles, mean, median, quartiles};
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
 use crate::measurement::inputs::ReferenceInputs;
@@ -70,12 +72,13 @@ pub(crate) struct Medians {
     pub(crate) counters: BTreeMap<String, u64>,
     /// Key of the cell whose picture stands for the row: the first seed's.
     pub(crate) key: String,
-    /// By name of the reference; medians over seeds.
+    /// By name of the reference, the noise of the reference included. Over seeds: the mean of squared errors, and
+    /// RMSE and PSNR of that mean; medians of the other metrics.
     pub(crate) errors: BTreeMap<String, Comparison>,
-    /// RMSE of sRGB values of each seed, by name of the reference.
-    pub(crate) seed_rmse: BTreeMap<String, Vec<f64>>,
+    /// The same squared errors seed by seed, by name of the reference.
+    pub(crate) samples: BTreeMap<String, Sample>,
     /// By name of the reference, where there are two seeds or more.
-    pub(crate) bias: BTreeMap<String, Bias>,
+    pub(crate) split: BTreeMap<String, Split>,
     /// The way to the picture: medians of time, errors of the first seed.
     pub(crate) checkpoints: Vec<Checkpoint>,
 }
@@ -87,6 +90,12 @@ impl Row {
             RowResult::Done(medians) => Some(medians),
             _ => None,
         }
+    }
+
+    /// How much larger the squared error of another row is; `None` where there is too little to tell.
+    fn excess_of(&self, other: &Self, reference: &str) -> Option<Estimate> {
+        let sample = |row: &'_ Self| row.medians()?.samples.get(reference).cloned();
+        sample(other)?.excess_over(&sample(self)?)
     }
 }
 
@@ -100,14 +109,16 @@ impl SceneAnswer {
         scene: &SceneCells,
         out: &Path,
     ) -> Result<Self, Failure> {
-        Self::with(experiment, scene, |cells| bias::of_cells(cells, scene, out))
+        Self::with(experiment, scene, |cells, medians| {
+            bias::of_cells(cells, &medians.samples, scene, out)
+        })
     }
 
-    /// The same with what `bias` says of the cells of a row that has pictures.
+    /// The same with the split of the errors of a row that has pictures.
     fn with(
         experiment: &Experiment,
         scene: &SceneCells,
-        bias: impl Fn(&[&(Turn, Cell)]) -> Result<BTreeMap<String, Bias>, Failure>,
+        split: impl Fn(&Vec<&(Turn, Cell)>, &Medians) -> Result<BTreeMap<String, Split>, Failure>,
     ) -> Result<Self, Failure> {
         let mut groups: BTreeMap<(usize, &str), Vec<&(Turn, Cell)>> = BTreeMap::new();
         for cell in &scene.cells {
@@ -115,9 +126,9 @@ impl SceneAnswer {
             groups.entry((cell.0.variant, machine)).or_default().push(cell);
         }
         let row = |((variant, machine), cells): ((usize, &str), Vec<&(Turn, Cell)>)| {
-            let mut result = result(&cells);
+            let mut result = result(&cells, experiment.variants[variant].method.is_random());
             if let RowResult::Done(medians) = &mut result {
-                medians.bias = bias(&cells)?;
+                medians.split = split(&cells, medians)?;
             }
             Ok::<_, Failure>(Row { variant, machine: machine.to_owned(), result })
         };
@@ -134,7 +145,7 @@ impl SceneAnswer {
     /// Of cells without their pictures, which are not committed: nothing of bias is known.
     #[cfg(test)]
     pub(crate) fn of_cells(experiment: &Experiment, scene: &SceneCells) -> Self {
-        Self::with(experiment, scene, |_| Ok(BTreeMap::new())).expect("no picture is read")
+        Self::with(experiment, scene, |_, _| Ok(BTreeMap::new())).expect("no picture is read")
     }
 
     /// A reference for headings: who made it, and how.
@@ -152,15 +163,9 @@ impl SceneAnswer {
         self.rows.iter().find(same)
     }
 
-    /// Whether the RMSE of a row differs from the baseline's by more than chance, seed by seed;
-    /// `None` where there are too few seeds to tell, and where no seed differs at all.
-    pub(crate) fn differs(&self, row: &Row, reference: &str) -> Option<bool> {
-        let seeds = |row: &Row| row.medians()?.seed_rmse.get(reference).cloned();
-        let pairs: Vec<_> = seeds(row)?.into_iter().zip(seeds(self.baseline(row)?)?).collect();
-        if pairs.iter().all(|(row, baseline)| row == baseline) {
-            return None;
-        }
-        paired_difference(&pairs).map(|(mean, half)| mean.abs() > half)
+    /// How much larger the squared error of a row is than the baseline's; `None` where there is too little to tell.
+    pub(crate) fn excess(&self, row: &Row, reference: &str) -> Option<Estimate> {
+        self.baseline(row)?.excess_of(row, reference)
     }
 
     /// Noise of a reference as (radiance, sRGB); `None` where nothing was compared with it.
@@ -171,25 +176,19 @@ impl SceneAnswer {
         })
     }
 
-    /// Ranks by RMSE of sRGB values against a reference, best first. Rows that are closer to the
-    /// best of their rank than the noise of the reference share it. `None` for rows without pictures.
-    pub(crate) fn ranks(&self, reference: &str) -> Vec<Option<Rank>> {
-        let floor = self.floor(reference).map_or(0.0, |(_, display)| display);
-        let error = |row: &Row| Some(row.medians()?.errors.get(reference)?.display.rmse);
-        let mut order: Vec<(usize, f64)> =
-            self.rows.iter().enumerate().filter_map(|(i, row)| Some((i, error(row)?))).collect();
-        order.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let mut ranks = vec![None; self.rows.len()];
-        let mut start = 0;
-        while start < order.len() {
-            let same = order[start..].iter().take_while(|(_, e)| e - order[start].1 <= floor);
-            let end = start + same.count();
-            for &(index, _) in &order[start..end] {
-                ranks[index] = Some(Rank { place: start + 1, shared: end - start > 1 });
-            }
-            start = end;
-        }
-        ranks
+    /// Ranks by RMSE of sRGB values against a reference. `None` for rows without pictures. Rows compete within their
+    /// budget alone.
+    pub(crate) fn ranks(&self, experiment: &Experiment, reference: &str) -> Vec<Option<Rank>> {
+        let budget = |row: &Row| {
+            let variant = &experiment.variants[row.variant];
+            (variant.budget, variant.bounded)
+        };
+        let rivals: Vec<_> = self.rows.iter().filter(|row| row.medians().is_some()).collect();
+        let rank = |row: &Row| {
+            let same = rivals.iter().filter(|other| budget(other) == budget(row));
+            row.medians().map(|_| Rank::among(same.map(|other| other.excess_of(row, reference))))
+        };
+        self.rows.iter().map(rank).collect()
     }
 }
 
@@ -203,16 +202,7 @@ impl Quantity {
     }
 }
 
-/// A place among the rows of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Rank {
-    /// From 1.
-    pub(crate) place: usize,
-    /// Others are closer than the noise of the reference.
-    pub(crate) shared: bool,
-}
-
-fn result(cells: &[&(Turn, Cell)]) -> RowResult {
+fn result(cells: &[&(Turn, Cell)], is_random: bool) -> RowResult {
     let mut done = Vec::new();
     let mut declined = None;
     for (turn, cell) in cells {
@@ -230,12 +220,10 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
     // Repetitions of a seed have the same picture: they are not independent errors.
     let mut seeds = BTreeSet::new();
     let firsts = done.iter().filter(|(turn, ..)| seeds.insert(turn.seed));
-    let pictures: Vec<&Done> = firsts.map(|(.., done)| *done).collect();
-    let rmse = |reference: &String| {
-        let seeds =
-            pictures.iter().filter_map(|done| Some(done.errors.get(reference)?.display.rmse));
-        (reference.clone(), seeds.collect())
-    };
+    let pictures: Vec<(u64, &Done)> = firsts.map(|(turn, _, done)| (turn.seed, *done)).collect();
+    let names = || first.2.errors.keys().cloned();
+    let samples = names().map(|name| (name.clone(), sample(&pictures, &name, is_random)));
+    let errors = names().map(|name| (name.clone(), errors_over_seeds(&pictures, &name)));
     let runs: Vec<&Done> = done.iter().map(|(.., done)| *done).collect();
     let middle = |seconds: fn(&Done) -> f64| {
         median(runs.iter().map(|done| seconds(done))).expect("there is a first")
@@ -249,12 +237,12 @@ fn result(cells: &[&(Turn, Cell)]) -> RowResult {
         prepare_seconds: middle(|done| done.prepare_seconds),
         pass_seconds: pass_medians(&runs, |done| &done.pass_seconds),
         amount: first.2.amount,
-        seed_rmse: first.2.errors.keys().map(rmse).collect(),
-        bias: BTreeMap::new(),
+        samples: samples.collect(),
+        split: BTreeMap::new(),
         checkpoints: checkpoints(&runs),
         counters: first.2.counters.clone(),
         key: first.1.key.clone(),
-        errors: first.2.errors.keys().map(|r| (r.clone(), median_errors(&pictures, r))).collect(),
+        errors: errors.collect(),
     }))
 }
 
@@ -279,87 +267,49 @@ fn checkpoints(runs: &[&Done]) -> Vec<Checkpoint> {
     runs[0].checkpoints.iter().enumerate().filter_map(at).collect()
 }
 
-fn median_errors(pictures: &[&Done], reference: &str) -> Comparison {
-    let comparisons: Vec<Comparison> =
-        pictures.iter().filter_map(|done| done.errors.get(reference).copied()).collect();
-    let of = |value: &dyn Fn(&Comparison) -> f64| {
-        median(comparisons.iter().map(value)).expect("every picture is compared with it")
+fn sample(pictures: &[(u64, &Done)], reference: &str, is_random: bool) -> Sample {
+    let compared = pictures.iter().filter_map(|(seed, done)| Some((*seed, done.errors.get(reference)?)));
+    let error = |(seed, comparison): (u64, &Comparison)| SeedError {
+        seed,
+        squared: comparison.display.mse,
+        tiles: comparison.tiles.clone(),
     };
-    let errors = |side: &dyn Fn(&Comparison) -> Errors| Errors {
-        rmse: of(&|c| side(c).rmse),
-        mse: of(&|c| side(c).mse),
-        mae: of(&|c| side(c).mae),
-        psnr: of(&|c| side(c).psnr),
-        ssim: of(&|c| side(c).ssim),
-        rel_mse: of(&|c| side(c).rel_mse),
-        smape: of(&|c| side(c).smape),
-        rel_p999: of(&|c| side(c).rel_p999),
+    let floor = pictures[0].1.errors.get(reference).map_or(0.0, |comparison| comparison.display_floor);
+    Sample { seeds: compared.map(error).collect(), is_random, floor }
+}
+
+fn errors_over_seeds(pictures: &[(u64, &Done)], reference: &str) -> Comparison {
+    let comparisons: Vec<&Comparison> =
+        pictures.iter().filter_map(|(_, done)| done.errors.get(reference)).collect();
+    let middle = |value: &dyn Fn(&Comparison) -> f64| {
+        median(comparisons.iter().map(|c| value(c))).expect("every picture is compared with it")
+    };
+    let errors = |side: fn(&Comparison) -> &Errors| {
+        let mse = mean(comparisons.iter().map(|c| side(c).mse));
+        // That of a seed is a constant less its own logarithm.
+        let known = comparisons.iter().map(|c| side(c)).find(|errors| errors.mse > 0.0);
+        let psnr = |errors: &Errors| errors.psnr + 10.0 * (errors.mse / mse).log10();
+        Errors {
+            rmse: mse.sqrt(),
+            mse,
+            psnr: known.map_or(f64::INFINITY, psnr),
+            mae: middle(&|c| side(c).mae),
+            ssim: middle(&|c| side(c).ssim),
+            rel_mse: middle(&|c| side(c).rel_mse),
+            smape: middle(&|c| side(c).smape),
+            rel_p999: middle(&|c| side(c).rel_p999),
+        }
     };
     Comparison {
-        linear: errors(&|c| c.linear),
-        display: errors(&|c| c.display),
-        linear_floor: of(&|c| c.linear_floor),
-        display_floor: of(&|c| c.display_floor),
+        linear: errors(|c| &c.linear),
+        display: errors(|c| &c.display),
+        linear_floor: middle(&|c| c.linear_floor),
+        display_floor: middle(&|c| c.display_floor),
+        tiles: None,
     }
 }
 
 /// The value of each metric, for files that hold them all.
 pub(crate) fn values(errors: &Errors) -> impl Iterator<Item = (&'static str, f64)> {
     METRICS.iter().map(move |metric| (metric.id, (metric.value)(errors)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FLOOR: f64 = 0.01;
-
-    fn errors(rmse: f64) -> Errors {
-        let [mae, psnr, ssim, rel_mse, smape, rel_p999] = [0.0; 6];
-        Errors { rmse, mse: rmse * rmse, mae, psnr, ssim, rel_mse, smape, rel_p999 }
-    }
-
-    fn row_of(variant: usize, result: RowResult) -> Row {
-        Row { variant, machine: "m".into(), result }
-    }
-
-    fn row(variant: usize, rmse: f64) -> Row {
-        let comparison = Comparison {
-            linear: errors(rmse),
-            display: errors(rmse),
-            linear_floor: 0.0,
-            display_floor: FLOOR,
-        };
-        let seconds = Quartiles { lower: 1.0, median: 1.0, upper: 1.0 };
-        let errors = BTreeMap::from([("traced".to_owned(), comparison)]);
-        let counters = BTreeMap::new();
-        let medians = Medians {
-            seconds,
-            runs: 1,
-            bake_seconds: 0.0,
-            bake_pass_seconds: BTreeMap::new(),
-            bake_counters: BTreeMap::new(),
-            prepare_seconds: 0.0,
-            pass_seconds: BTreeMap::new(),
-            amount: Some(1.0),
-            counters,
-            key: String::new(),
-            errors,
-            seed_rmse: BTreeMap::from([("traced".to_owned(), vec![rmse, rmse + 0.001 * rmse])]),
-            bias: BTreeMap::new(),
-            checkpoints: Vec::new(),
-        };
-        row_of(variant, RowResult::Done(Box::new(medians)))
-    }
-
-    #[test]
-    fn rows_closer_than_the_floor_share_a_rank() {
-        let declined = row_of(3, RowResult::Declined("no".into()));
-        let rows = vec![row(0, 0.5), row(1, 0.105), row(2, 0.1), declined, row(4, 0.2)];
-        let references = BTreeMap::new();
-        let answer = SceneAnswer { scene: "s".into(), rows, references, baseline: 0 };
-        let ranks = answer.ranks("traced");
-        let rank = |place, shared| Some(Rank { place, shared });
-        assert_eq!(ranks, [rank(4, false), rank(1, true), rank(1, true), None, rank(3, false)]);
-    }
 }

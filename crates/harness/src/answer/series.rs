@@ -34,7 +34,7 @@ pub(crate) struct Point {
     pub(crate) amount: Option<f64>,
     /// Median time of the work, with its quartiles.
     pub(crate) seconds: [f64; 3],
-    /// Median RMSE of sRGB values over the seeds, with the least and the largest.
+    /// RMSE of sRGB values over all seeds, with the least and the largest.
     pub(crate) rmse: [f64; 3],
 }
 
@@ -77,6 +77,16 @@ impl Series {
     /// Colour and marker, those of the method.
     pub(crate) fn style(&self) -> (RGBColor, Marker) {
         method_style(self.place)
+    }
+
+    /// Whether a variant that a machine ran lies on it.
+    pub(crate) fn has(&self, variant: usize, machine: &str) -> bool {
+        self.machine == machine && self.variants.contains(&variant)
+    }
+
+    /// Whether there is something between its points.
+    pub(crate) fn is_a_line(&self) -> bool {
+        self.variants.len() > 1
     }
 
     /// What was measured on a scene against a reference: in the order of the amount of work where
@@ -125,15 +135,16 @@ fn checkpoints(runs: &[&Medians], cost: Cost, reference: &str) -> Vec<Point> {
 
 fn point(medians: &Medians, reference: &str) -> Option<Point> {
     let rmse = medians.errors.get(reference)?.display.rmse;
-    let seeds = medians.seed_rmse.get(reference)?;
+    let sample = medians.samples.get(reference)?;
+    let seeds = || sample.seeds.iter().map(|seed| seed.squared.sqrt());
     let seconds = medians.seconds;
     Some(Point {
         amount: medians.amount,
         seconds: [seconds.median, seconds.lower, seconds.upper],
         rmse: [
             rmse,
-            seeds.iter().copied().fold(rmse, f64::min),
-            seeds.iter().copied().fold(rmse, f64::max),
+            seeds().fold(rmse, f64::min),
+            seeds().fold(rmse, f64::max),
         ],
     })
 }

@@ -31,35 +31,37 @@ pub(crate) fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     quartiles(values).map(|quartiles| quartiles.median)
 }
 
-/// Mean of paired differences and half of its 95 % confidence interval (Student's t; the differences
-/// are taken to be normal). `None` below two pairs: one has no spread.
-pub(crate) fn paired_difference(pairs: &[(f64, f64)]) -> Option<(f64, f64)> {
-    let count = pairs.len();
-    if count < 2 {
-        return None;
-    }
-    let n = count as f64;
-    let mean = pairs.iter().map(|(a, b)| a - b).sum::<f64>() / n;
-    let variance = pairs.iter().map(|(a, b)| (a - b - mean).powi(2)).sum::<f64>() / (n - 1.0);
-    Some((mean, student_95(count - 1) * (variance / n).sqrt()))
+/// The mean; not a number of nothing.
+pub(crate) fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    values.sum::<f64>() / count
 }
 
-/// The 97.5 % quantile of Student's t distribution: a table to ten degrees of freedom, beyond it the
-/// expansion of Cornish and Fisher to third order (Abramowitz and Stegun 26.7.5), right to 2e-4.
-fn student_95(degrees: usize) -> f64 {
+/// The unbiased variance of two values or more.
+pub(crate) fn variance(values: &[f64]) -> f64 {
+    let mean = mean(values.iter().copied());
+    values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (values.len() as f64 - 1.0)
+}
+
+/// The 97.5 % quantile of Student's t distribution for one degree of freedom or more, not necessarily whole: a
+/// table to ten degrees, between which its logarithm is taken to be linear in the inverse of the degrees (right to
+/// 3 %, and too large); beyond them the expansion of Cornish and Fisher to third order (Abramowitz and Stegun 26.7.5), right to 2e-4.
+pub(crate) fn student_95(degrees: f64) -> f64 {
     const TABLE: [f64; 10] =
         [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
     const NORMAL: f64 = 1.959_964;
-    match TABLE.get(degrees - 1) {
-        Some(&quantile) => quantile,
-        None => {
-            let (z, n) = (NORMAL, degrees as f64);
-            let first = (z.powi(3) + z) / 4.0;
-            let second = (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / 96.0;
-            let third = (3.0 * z.powi(7) + 19.0 * z.powi(5) + 17.0 * z.powi(3) - 15.0 * z) / 384.0;
-            z + first / n + second / (n * n) + third / n.powi(3)
-        }
+    let degrees = degrees.max(1.0);
+    if degrees < 10.0 {
+        let below = degrees.floor();
+        let [lower, upper]: [f64; 2] = [TABLE[below as usize - 1], TABLE[below as usize]];
+        let share = (1.0 / below - 1.0 / degrees) / (1.0 / below - 1.0 / (below + 1.0));
+        return lower.powf(1.0 - share) * upper.powf(share);
     }
+    let (z, n) = (NORMAL, degrees);
+    let first = (z.powi(3) + z) / 4.0;
+    let second = (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / 96.0;
+    let third = (3.0 * z.powi(7) + 19.0 * z.powi(5) + 17.0 * z.powi(3) - 15.0 * z) / 384.0;
+    z + first / n + second / (n * n) + third / n.powi(3)
 }
 
 #[cfg(test)]
@@ -77,14 +79,17 @@ mod tests {
     }
 
     #[test]
-    fn differences_have_the_interval_of_students_t() {
-        // scipy.stats.ttest_rel([1, 2, 4], [0, 2, 2]).confidence_interval() = (-1.484, 3.484)
-        let (mean, half) = paired_difference(&[(1.0, 0.0), (2.0, 2.0), (4.0, 2.0)]).expect("three");
-        assert!((mean - 1.0).abs() < 1e-12 && (half - 2.484).abs() < 1e-3, "{mean} ± {half}");
-        assert_eq!(paired_difference(&[(1.0, 2.0)]), None);
-        // scipy.stats.t.ppf(0.975, [11, 20, 100]) = [2.20099, 2.08596, 1.98397]
-        for (degrees, quantile) in [(11, 2.20099), (20, 2.08596), (100, 1.98397)] {
-            assert!((student_95(degrees) - quantile).abs() < 2e-4);
+    fn quantiles_of_students_t() {
+        // scipy.stats.t.ppf(0.975, [1, 4, 10, 11, 20, 100])
+        let whole =
+            [(1.0, 12.706), (4.0, 2.776), (10.0, 2.228), (11.0, 2.20099), (20.0, 2.08596), (100.0, 1.98397)];
+        for (degrees, quantile) in whole {
+            assert!((student_95(degrees) - quantile).abs() < 5e-4, "{degrees}");
+        }
+        // scipy.stats.t.ppf(0.975, [1.5, 2.5, 4.5, 9.5])
+        for (degrees, quantile) in [(1.5, 6.0167), (2.5, 3.5747), (4.5, 2.6585), (9.5, 2.2441)] {
+            let off = student_95(degrees) / quantile - 1.0;
+            assert!((-1e-3..0.03).contains(&off), "{degrees}: {off}");
         }
     }
 }

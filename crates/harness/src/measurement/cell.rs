@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use crate::error::one_line;
 use crate::measurement::inputs::Inputs;
 use crate::measurement::provenance::{Provenance, sha256};
+use crate::measurement::tiles::Tiles;
 use crate::measurement::versions::Versions;
 
 /// Of the lines that are written. Raised when a program of an older format would misread them; fields that
@@ -141,7 +142,7 @@ pub(crate) struct Checkpoint {
 }
 
 /// Errors against one reference.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Comparison {
     /// Of radiance, W·m⁻²·sr⁻¹.
     pub(crate) linear: Errors,
@@ -151,6 +152,9 @@ pub(crate) struct Comparison {
     pub(crate) linear_floor: f64,
     /// Noise of the reference, as RMSE of sRGB values.
     pub(crate) display_floor: f64,
+    /// Of the first of a seed's repetitions, which all have the same picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) tiles: Option<Tiles>,
 }
 
 /// Counts without a decimal point.
@@ -227,7 +231,7 @@ mod tests {
             rel_p999: 0.9,
         };
         let comparison =
-            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
+            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4, tiles: None };
         let checkpoint = Checkpoint {
             amount: 16.0,
             step_seconds: 0.01,

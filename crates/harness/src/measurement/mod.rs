@@ -16,6 +16,7 @@ pub(crate) mod scene_cells;
 pub(crate) mod scene_run;
 pub(crate) mod session;
 pub(crate) mod stage;
+pub(crate) mod tiles;
 pub(crate) mod time_budget;
 pub(crate) mod valid;
 mod variant_run;

@@ -13,6 +13,7 @@ use crate::error::Failure;
 use crate::measurement::cell::Comparison;
 use crate::measurement::measure;
 use crate::measurement::stage::Stage;
+use crate::measurement::tiles::Tiles;
 use crate::output::say;
 use crate::progress::ProgressBar;
 use crate::question::experiment::Experiment;
@@ -28,6 +29,8 @@ pub(crate) struct SceneReference {
     /// Who made it, with which parameters.
     pub(crate) caption: String,
     pictures: Pictures,
+    /// Independent halves of it as sRGB values, where it was traced and not read.
+    display_halves: Option<[RadianceImage; 2]>,
     /// RMSE of radiance that noise alone causes.
     linear_floor: f64,
     /// RMSE of sRGB values that noise alone causes. A method that is the reference has none: its
@@ -101,6 +104,7 @@ impl SceneReference {
             pictures: Pictures::One(stage.completed(traced.image)),
             linear_floor: traced.noise_floor,
             display_floor: display.rmse / 2.0,
+            display_halves: Some([a, b].map(|half| half.display(scene.exposure))),
             exposure: scene.exposure,
         })
     }
@@ -131,6 +135,7 @@ impl SceneReference {
             pictures: Pictures::Seeds(pictures),
             linear_floor: 0.0,
             display_floor: 0.0,
+            display_halves: None,
             exposure: scene.exposure,
         })
     }
@@ -190,7 +195,14 @@ impl SceneReference {
             display: compare_display(image, truth, self.exposure)?,
             linear_floor: self.linear_floor,
             display_floor: self.display_floor,
+            tiles: None,
         })
+    }
+
+    /// The squared errors of a picture of this seed by tile.
+    pub(crate) fn tiles(&self, image: &RadianceImage, seed: u64) -> Tiles {
+        let [image, truth] = [image, self.image_for(seed)].map(|image| image.display(self.exposure));
+        Tiles::new(&image, &truth, self.display_halves.as_ref())
     }
 }
 

@@ -304,7 +304,11 @@ impl SceneRun<'_, '_> {
         let Variant { method, parameters, visibility, .. } =
             &self.session.experiment.variants[turn.variant];
         let asked = || Some(parameters.real(method.cost()?.parameter));
-        let errors = compare(self.references, &measured.image, turn.seed)?;
+        let mut errors = compare(self.references, &measured.image, turn.seed)?;
+        for reference in self.references.iter().filter(|_| turn.repetition == 0) {
+            let comparison = errors.get_mut(&reference.name).expect("all are compared with");
+            comparison.tiles = Some(reference.tiles(&measured.image, turn.seed));
+        }
         Ok(Done {
             amount: self.amounts[turn.variant].or_else(asked),
             checkpoints,

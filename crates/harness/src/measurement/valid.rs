@@ -8,6 +8,7 @@ use manylights_metrics::Errors;
 use crate::error::one_line;
 use crate::measurement::cell::{Cell, Checkpoint, Comparison, Done, Outcome};
 use crate::measurement::inputs::{Inputs, ReferenceInputs};
+use crate::measurement::tiles::{TILES, Tiles};
 use crate::question::plan::Budget;
 use crate::question::settings;
 use crate::registry::METHODS;
@@ -89,7 +90,8 @@ fn check_done(done: &Done, references: &BTreeMap<String, ReferenceInputs>) -> Re
 }
 
 fn check_comparison(comparison: &Comparison) -> Result<(), String> {
-    let Comparison { linear, display, linear_floor, display_floor } = comparison;
+    let Comparison { linear, display, linear_floor, display_floor, tiles } = comparison;
+    tiles.iter().try_for_each(check_tiles)?;
     for (errors, most) in [(linear, MOST_ERROR), (display, 1.0)] {
         let Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999 } = *errors;
         within("rmse", rmse, 0.0, most)?;
@@ -106,6 +108,16 @@ fn check_comparison(comparison: &Comparison) -> Result<(), String> {
     }
     within("linear_floor", *linear_floor, 0.0, MOST_ERROR)?;
     within("display_floor", *display_floor, 0.0, 1.0)
+}
+
+fn check_tiles(tiles: &Tiles) -> Result<(), String> {
+    let Tiles { squared, imbalance } = tiles;
+    let lengths = [squared.len(), imbalance.len()];
+    if lengths != [TILES; 2] && lengths != [TILES, 0] {
+        return Err(format!("`tiles` are {TILES} numbers, not {lengths:?}"));
+    }
+    squared.iter().try_for_each(|&value| within("squared", value.into(), 0.0, 1.0))?;
+    imbalance.iter().try_for_each(|&value| within("imbalance", value.into(), -1.0, 1.0))
 }
 
 fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), String> {
@@ -151,7 +163,7 @@ pub(crate) mod tests {
             rel_p999: 0.9,
         };
         let comparison =
-            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4 };
+            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4, tiles: None };
         let done = Done {
             amount: Some(32.0),
             bake_seconds: 0.0,

@@ -18,19 +18,21 @@ pub(crate) enum Column {
     Passes,
     /// Time as a multiple of the baseline's.
     TimeRatio,
-    /// RMSE of sRGB values.
+    /// RMSE of sRGB values, without the noise of the reference.
     Rmse,
+    /// 95 % interval of the RMSE; in every table that has the RMSE, where it is known.
+    Interval,
     /// RMSE as a multiple of the baseline's.
     RmseRatio,
-    /// Root of the squared bias, of sRGB values.
+    /// Root of the squared bias, of sRGB values, with its interval.
     Bias,
-    /// Standard deviation over seeds, of sRGB values.
+    /// Standard deviation over seeds, of sRGB values, with its interval.
     Deviation,
     /// PSNR of sRGB values.
     Psnr,
     /// SSIM of sRGB values.
     Ssim,
-    /// RMSE of radiance.
+    /// RMSE of radiance, without the noise of the reference.
     RmseLinear,
     /// 99.9th percentile of the relative error of radiance: spikes.
     Spikes,
@@ -38,13 +40,14 @@ pub(crate) enum Column {
 
 impl Column {
     /// Those of an experiment that names none, in their order.
-    pub(crate) const ALL: [Self; 13] = [
+    pub(crate) const ALL: [Self; 14] = [
         Self::Counts,
         Self::Time,
         Self::Quartiles,
         Self::Bake,
         Self::TimeRatio,
         Self::Rmse,
+        Self::Interval,
         Self::RmseRatio,
         Self::Bias,
         Self::Deviation,
@@ -64,6 +67,7 @@ impl Column {
             Self::Passes => "passes ms",
             Self::TimeRatio | Self::RmseRatio => "÷ base",
             Self::Rmse => "RMSE",
+            Self::Interval => "95 %",
             Self::Bias => "bias",
             Self::Deviation => "deviation",
             Self::Psnr => "PSNR dB",

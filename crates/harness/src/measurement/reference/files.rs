@@ -78,6 +78,7 @@ impl SceneReference {
             pictures,
             linear_floor: floor(|comparison| comparison.linear_floor),
             display_floor: floor(|comparison| comparison.display_floor),
+            display_halves: None,
             exposure: inputs.exposure,
         };
         if let Some((cell, comparison)) = compared {

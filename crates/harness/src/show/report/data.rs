@@ -1,9 +1,12 @@
 //! The numbers of the page, as its scripts and other programs read them.
 
+use std::collections::BTreeMap;
+
 use serde_json::{Value, json};
 
 use super::Report;
 use super::pictures::{Picture, Pictures};
+use crate::answer::ranks::Rank;
 use crate::answer::rows::{Medians, RowResult, SceneAnswer};
 use crate::measurement::cell::Cell;
 use crate::measurement::provenance::Provenance;
@@ -61,6 +64,9 @@ fn scene(
             "color": format!("#{r:02x}{g:02x}{b:02x}"),
         })
     });
+    let ranks: BTreeMap<_, _> =
+        names.iter().map(|name| (name.as_str(), answer.ranks(experiment, name))).collect();
+    let rows = (0..answer.rows.len()).map(|index| row(answer, index, &ranks));
     let floor = |reference: &Reference| {
         let (linear, display) = answer.floor(&reference.name)?;
         Some((reference.name.clone(), json!({ "linear": linear, "display": display })))
@@ -78,7 +84,7 @@ fn scene(
             .filter_map(floor).collect::<serde_json::Map<_, _>>(),
         "crops": crops.collect::<Vec<_>>(),
         "pictures": pictures.list.iter().map(picture).collect::<Vec<_>>(),
-        "rows": (0..answer.rows.len()).map(|index| row(answer, index, &names)).collect::<Vec<_>>(),
+        "rows": rows.collect::<Vec<_>>(),
     })
 }
 
@@ -92,10 +98,13 @@ fn picture(picture: &Picture<'_>) -> Value {
     }
 }
 
-fn row(answer: &SceneAnswer, index: usize, names: &[String]) -> Value {
+/// Ranks of all rows by name of the reference.
+type Ranks<'a> = BTreeMap<&'a str, Vec<Option<Rank>>>;
+
+fn row(answer: &SceneAnswer, index: usize, ranks: &Ranks<'_>) -> Value {
     let row = &answer.rows[index];
     match &row.result {
-        RowResult::Done(medians) => done(answer, index, medians, names),
+        RowResult::Done(medians) => done(answer, index, medians, ranks),
         RowResult::Declined(reason) => {
             json!({ "variant": row.variant, "machine": row.machine, "outcome": "declined", "reason": reason })
         }
@@ -105,23 +114,27 @@ fn row(answer: &SceneAnswer, index: usize, names: &[String]) -> Value {
     }
 }
 
-fn done(answer: &SceneAnswer, index: usize, medians: &Medians, names: &[String]) -> Value {
+fn done(answer: &SceneAnswer, index: usize, medians: &Medians, ranks: &Ranks<'_>) -> Value {
     let row = &answer.rows[index];
-    let against = |name: &String| {
+    let against = |(&name, ranks): (&&str, &Vec<Option<Rank>>)| {
         let errors = medians.errors.get(name)?;
-        let rank = answer.ranks(name)[index];
-        let bias = medians.bias.get(name);
+        let rank = ranks[index];
+        let sample = &medians.samples[name];
+        let split = medians.split.get(name);
+        let excess = answer.excess(row, name);
         let value = json!({
-            "rank": rank.map(|rank| rank.place),
-            "rank_shared": rank.map(|rank| rank.shared),
-            "differs_from_baseline": answer.differs(row, name),
+            "rank_best": rank.map(|rank| rank.best),
+            "rank_worst": rank.map(|rank| rank.worst),
+            "differs_from_baseline": excess.is_some_and(|excess| !excess.holds_zero()),
+            "error": sample.mean_squared().sqrt(),
+            "error_interval": sample.squared_error().map(|squared| squared.roots()),
             "linear": errors.linear,
             "display": errors.display,
-            "bias": bias.map(|bias| bias.bias),
-            "deviation": bias.map(|bias| bias.deviation),
-            "seed_rmse": medians.seed_rmse.get(name),
+            "bias": split.map(|split| split.squared_bias.roots()[0]),
+            "deviation": split.map(|split| split.variance.roots()[0]),
+            "seed_rmse": sample.seeds.iter().map(|seed| seed.squared.sqrt()).collect::<Vec<_>>(),
         });
-        Some((name.clone(), value))
+        Some((name.to_owned(), value))
     };
     let seconds = medians.seconds;
     json!({
@@ -138,7 +151,7 @@ fn done(answer: &SceneAnswer, index: usize, medians: &Medians, names: &[String])
         "bake_seconds": medians.bake_seconds,
         "bake_counters": medians.bake_counters,
         "prepare_seconds": medians.prepare_seconds,
-        "errors": names.iter().filter_map(against).collect::<serde_json::Map<_, _>>(),
+        "errors": ranks.iter().filter_map(against).collect::<serde_json::Map<_, _>>(),
     })
 }
 

@@ -89,6 +89,7 @@ impl Report<'_> {
                 ("question", &escaped(&self.experiment.question)),
                 ("facts", &self.facts()),
                 ("metrics", &metrics()),
+                ("verdicts", &self.verdicts()),
                 ("tables", &self.tables()),
                 ("style", &STYLE.concat()),
                 ("curves", &curves),
@@ -98,6 +99,23 @@ impl Report<'_> {
                 ("scripts", &SCRIPTS.concat()),
             ],
         ))
+    }
+
+    /// What the numbers say in sentences, and methods over all scenes.
+    fn verdicts(&self) -> String {
+        let sentences = table::verdicts(self.experiment, self.answers);
+        let sentence = |text: &String| {
+            let parts = text.split('`').map(escaped).enumerate();
+            let part = |(index, part): (usize, String)| match index % 2 {
+                0 => part,
+                _ => format!("<code>{part}</code>"),
+            };
+            format!("<p>{}</p>\n", parts.map(part).collect::<String>())
+        };
+        let tables = table::across_scenes(self.experiment, self.answers);
+        let table = |table: &Table| plain_table(&table.caption, table);
+        let sentences: String = sentences.iter().map(sentence).collect();
+        sentences + &tables.iter().map(table).collect::<String>()
     }
 
     /// Times to errors and published values.

@@ -3,19 +3,22 @@ use std::fmt::Write as _;
 
 use manylights_metrics::METRICS;
 
-use crate::answer::rows::{Rank, Row, RowResult, SceneAnswer, values};
+use crate::answer::ranks::Rank;
+use crate::answer::rows::{Row, RowResult, SceneAnswer, values};
+use crate::answer::significance::Estimate;
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Budget, Variant};
 
 /// Columns before those of the metrics.
-const COLUMNS: usize = 23;
+const COLUMNS: usize = 30;
 
 /// The table for programs: one line for each scene, variant and reference.
 pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
     let mut text = String::from(
-        "scene,method,parameters,time_budget,bounded,machine,reference,outcome,rank,rank_shared,amount,runs,seconds,\
-         seconds_lower,seconds_upper,pass_seconds,bake_seconds,bake_pass_seconds,prepare_seconds,linear_floor,display_floor,display_bias,\
-         display_deviation",
+        "scene,method,parameters,time_budget,bounded,machine,reference,outcome,rank_best,rank_worst,amount,runs,seconds,\
+         seconds_lower,seconds_upper,pass_seconds,bake_seconds,bake_pass_seconds,prepare_seconds,linear_floor,display_floor,display_error,\
+         display_error_lower,display_error_upper,display_bias,display_bias_lower,display_bias_upper,display_deviation,\
+         display_deviation_lower,display_deviation_upper",
     );
     for space in ["linear", "display"] {
         for metric in METRICS {
@@ -25,7 +28,7 @@ pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
     text.push('\n');
     for scene in scenes {
         for reference in experiment.references.iter().map(|reference| &reference.name) {
-            for (row, rank) in scene.rows.iter().zip(scene.ranks(reference)) {
+            for (row, rank) in scene.rows.iter().zip(scene.ranks(experiment, reference)) {
                 text.push_str(&csv_line(experiment, &scene.scene, row, rank, reference));
                 text.push('\n');
             }
@@ -55,11 +58,12 @@ fn csv_line(
         RowResult::Done(medians) => {
             let comparison = &medians.errors[reference];
             let rank = rank.expect("rows with pictures are ranked");
-            fields.extend(["done".into(), rank.place.to_string(), rank.shared.to_string()]);
+            fields.extend(["done".into(), rank.best.to_string(), rank.worst.to_string()]);
             let amount = medians.amount.map_or_else(String::new, |amount| amount.to_string());
             fields.extend([amount, medians.runs.to_string()]);
             let seconds = medians.seconds;
-            let bias = medians.bias.get(reference);
+            let sample = &medians.samples[reference];
+            let split = medians.split.get(reference);
             let times = [seconds.median, seconds.lower, seconds.upper];
             fields.extend(times.map(|number| number.to_string()));
             fields.push(quoted(&passes(&medians.pass_seconds)));
@@ -69,8 +73,10 @@ fn csv_line(
                 [medians.prepare_seconds, comparison.linear_floor, comparison.display_floor];
             let metrics = values(&comparison.linear).chain(values(&comparison.display));
             fields.extend(numbers.map(|number| number.to_string()));
-            let split = [bias.map(|split| split.bias), bias.map(|split| split.deviation)];
-            fields.extend(split.map(|part| part.map_or_else(String::new, |part| part.to_string())));
+            fields.push(sample.mean_squared().sqrt().to_string());
+            fields.extend(roots(sample.squared_error()).into_iter().skip(1));
+            fields.extend(roots(split.map(|split| split.squared_bias)));
+            fields.extend(roots(split.map(|split| split.variance)));
             fields.extend(metrics.map(|(_, value)| value.to_string()));
         }
         RowResult::Declined(reason) => fields.push(quoted(&format!("declined: {reason}"))),
@@ -78,6 +84,14 @@ fn csv_line(
     }
     fields.resize(COLUMNS + 2 * METRICS.len(), String::new());
     fields.join(",")
+}
+
+/// The root of a square and both ends of its interval, where they are known.
+fn roots(squared: Option<Estimate>) -> [String; 3] {
+    squared.map_or_else(Default::default, |squared| match squared.half.is_finite() {
+        true => squared.roots().map(|root| root.to_string()),
+        false => [squared.roots()[0].to_string(), String::new(), String::new()],
+    })
 }
 
 /// As `name=seconds`, separated by spaces of which names have none.

@@ -1,6 +1,6 @@
 use std::fmt::Write as _;
 
-use super::{Table, foot, head, of_scene, published};
+use super::{Table, across_scenes, foot, head, of_scene, published, verdicts};
 use crate::answer::rows::SceneAnswer;
 use crate::measurement::provenance::Provenance;
 use crate::question::experiment::Experiment;
@@ -16,6 +16,12 @@ pub(crate) fn latex(
         "% {}\n% {scale}\n% {program}\n% Needs \\usepackage{{booktabs,textcomp}} and UTF-8 input.\n",
         experiment.title.replace('\n', " ")
     );
+    for verdict in verdicts(experiment, scenes) {
+        let _ = writeln!(text, "% {verdict}");
+    }
+    for table in across_scenes(experiment, scenes) {
+        write_table(&mut text, &table.caption, &table);
+    }
     for scene in scenes {
         for table in of_scene(experiment, scene) {
             write_table(

@@ -1,6 +1,6 @@
 use std::fmt::Write as _;
 
-use super::{Table, foot, head, of_scene, published};
+use super::{Table, across_scenes, foot, head, of_scene, published, verdicts};
 use crate::answer::rows::SceneAnswer;
 use crate::measurement::provenance::Provenance;
 use crate::question::experiment::Experiment;
@@ -14,6 +14,13 @@ pub(crate) fn markdown(
     let [scale, program] = head(experiment, machine);
     let Experiment { title, question, .. } = experiment;
     let mut text = format!("# {title}\n\n{question}\n\n{scale}\n{program}\n");
+    let _ = write!(text, "\n## Over all scenes\n");
+    for verdict in verdicts(experiment, scenes) {
+        let _ = write!(text, "\n{verdict}\n");
+    }
+    for table in across_scenes(experiment, scenes) {
+        write_table(&mut text, &table);
+    }
     for scene in scenes {
         let _ = write!(text, "\n## {}\n", scene.scene);
         for table in of_scene(experiment, scene) {

@@ -1,13 +1,15 @@
 //! `table.md`, `table.tex` and `table.csv`.
 
+mod across;
 mod csv;
 mod latex;
 mod markdown;
 
 use std::collections::BTreeSet;
 
-use crate::answer::rows::{Medians, Rank, Row, RowResult, SceneAnswer};
+use crate::answer::rows::{Medians, Row, RowResult, SceneAnswer};
 use crate::answer::series::{self, Reached};
+use crate::answer::significance::Estimate;
 use crate::answer::statistics::Quartiles;
 use crate::measurement::equal_time::miss;
 use crate::measurement::provenance::Provenance;
@@ -18,6 +20,7 @@ use crate::question::plan::{Budget, Variant};
 use crate::question::references::Reference;
 use crate::show::numbers::{self, milliseconds, short};
 
+pub(crate) use across::{verdicts, across_scenes};
 pub(crate) use csv::csv;
 pub(crate) use latex::latex;
 pub(crate) use markdown::markdown;
@@ -76,7 +79,7 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &Reference) 
             .iter()
             .map(|column| (column.title(), !matches!(column, Column::Counts | Column::Passes))),
     );
-    let ranks = scene.ranks(name);
+    let ranks = scene.ranks(experiment, name);
     let lines = scene.rows.iter().zip(ranks).map(|(row, rank)| {
         let several = scene.rows.iter().any(|other| other.machine != row.machine);
         let machine = if several { format!(" @{}", row.machine) } else { String::new() };
@@ -84,7 +87,7 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &Reference) 
         match &row.result {
             RowResult::Done(medians) => {
                 let at = Place { experiment, scene, row, reference: name };
-                let mut line = vec![rank.map_or_else(String::new, place), label];
+                let mut line = vec![rank.map_or_else(String::new, |rank| rank.to_string()), label];
                 line.extend(columns.iter().map(|column| at.cell(*column, medians)));
                 line
             }
@@ -118,22 +121,24 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &Reference) 
 /// shown where there is one, and only there: no time is told without it.
 fn shown(experiment: &Experiment, scene: &SceneAnswer) -> Vec<Column> {
     let any = |of: fn(&Medians) -> bool| scene.rows.iter().filter_map(Row::medians).any(of);
-    let (split, baked) = (any(|row| !row.bias.is_empty()), any(|row| row.bake_seconds > 0.0));
+    let (split, baked) = (any(|row| !row.split.is_empty()), any(|row| row.bake_seconds > 0.0));
+    let known = |row: &Medians| row.samples.values().any(|sample| sample.squared_error().is_some());
     let mut columns = experiment.columns.clone();
     if baked && !columns.contains(&Column::Bake) {
         let time = columns.iter().position(|&column| column == Column::Time);
         columns.insert(time.map_or(columns.len(), |time| time + 1), Column::Bake);
     }
+    if !columns.contains(&Column::Interval) {
+        let error = columns.iter().position(|&column| column == Column::Rmse);
+        columns.splice(error.map_or(0..0, |error| error + 1..error + 1), error.map(|_| Column::Interval));
+    }
     columns.retain(|column| match column {
+        Column::Interval => any(known),
         Column::Bias | Column::Deviation => split,
         Column::Bake => baked,
         _ => true,
     });
     columns
-}
-
-fn place(rank: Rank) -> String {
-    format!("{}{}", rank.place, if rank.shared { "=" } else { "" })
 }
 
 /// A row of a table.
@@ -151,22 +156,26 @@ impl Place<'_> {
         let ratio = |of: &dyn Fn(&Medians) -> f64| {
             base.map_or_else(String::new, |base| numbers::ratio(of(medians), of(base)))
         };
-        let bias = medians.bias.get(self.reference);
+        let sample = &medians.samples[self.reference];
+        let split = medians.split.get(self.reference);
         match column {
             Column::Counts => counts(medians),
             Column::Time => milliseconds(medians.seconds.median) + self.overrun(medians),
             Column::Quartiles => quartiles(medians.seconds),
             Column::Bake => milliseconds(medians.bake_seconds),
             Column::TimeRatio => ratio(&|row| row.seconds.median),
-            Column::Rmse => short(errors.display.rmse),
+            Column::Rmse => short(sample.mean_squared().sqrt()),
+            Column::Interval => sample.squared_error().map_or_else(String::new, interval),
             Column::RmseRatio => {
-                ratio(&|row| row.errors[self.reference].display.rmse) + self.insignificance()
+                ratio(&|row| row.samples[self.reference].mean_squared().sqrt()) + self.insignificance()
             }
-            Column::Bias => bias.map_or_else(String::new, |split| short(split.bias)),
-            Column::Deviation => bias.map_or_else(String::new, |split| short(split.deviation)),
+            Column::Bias => split.map_or_else(String::new, |split| part(split.squared_bias)),
+            Column::Deviation => split.map_or_else(String::new, |split| part(split.variance)),
             Column::Psnr => format!("{:.2}", errors.display.psnr),
             Column::Ssim => format!("{:.4}", errors.display.ssim),
-            Column::RmseLinear => short(errors.linear.rmse),
+            Column::RmseLinear => {
+                short((errors.linear.mse - errors.linear_floor.powi(2)).max(0.0).sqrt())
+            }
             Column::Spikes => short(errors.linear.rel_p999),
             Column::Passes => passes(medians),
         }
@@ -191,9 +200,9 @@ impl Place<'_> {
 
     /// Marks a difference to the baseline that may be chance.
     fn insignificance(&self) -> &'static str {
-        let differs = self.scene.differs(self.row, self.reference);
         let is_baseline = self.row.variant == self.experiment.baseline;
-        if !is_baseline && differs == Some(false) { " ≈" } else { "" }
+        let excess = self.scene.excess(self.row, self.reference);
+        if !is_baseline && excess.is_none_or(|excess| excess.holds_zero()) { " ≈" } else { "" }
     }
 }
 
@@ -206,6 +215,21 @@ fn passes(medians: &Medians) -> String {
 fn counts(medians: &Medians) -> String {
     let counts = medians.counters.iter().map(|(name, n)| format!("{n} {name}"));
     counts.collect::<Vec<_>>().join(", ")
+}
+
+/// Of the root of a square.
+fn interval(squared: Estimate) -> String {
+    let [_, lower, upper] = squared.roots();
+    format!("{}–{}", short(lower), short(upper))
+}
+
+/// A part of an error with its interval, where there are seeds enough for it.
+fn part(squared: Estimate) -> String {
+    let [root, ..] = squared.roots();
+    match squared.half.is_finite() {
+        true => format!("{} ({})", short(root), interval(squared)),
+        false => short(root),
+    }
 }
 
 fn quartiles(seconds: Quartiles) -> String {
@@ -285,8 +309,11 @@ pub(crate) fn foot(experiment: &Experiment) -> String {
     let mut text = format!(
         "Time: wall clock of the work (median and quartiles), on the adapter warmed up, without preparation, \
          read-back, metrics and files. Base: `{}`. RMSE, PSNR and SSIM are of sRGB values at the \
-         scene's exposure, RMSE linear of radiance in W·m⁻²·sr⁻¹. Ranks are by RMSE; rows that are \
-         closer than the noise floor share a rank (=). All metrics are in `table.csv`.",
+         scene's exposure, RMSE linear of radiance in W·m⁻²·sr⁻¹. The RMSE is \
+         of all seeds together, the noise of the reference subtracted (as squares; not so in PSNR, SSIM and \
+         `table.csv`, which has all metrics), with its 95 % interval. Ranks are by RMSE within a budget, each from \
+         one behind the rows that are better by more than chance to those before the rows that are worse: 2–4 may \
+         be any of these.",
         experiment.variants[experiment.baseline].label()
     );
     if experiment.transport != experiment.transport.estimated() {
@@ -300,8 +327,14 @@ pub(crate) fn foot(experiment: &Experiment) -> String {
     }
     if experiment.scale.seeds.len() > 1 {
         text.push_str(
-            " RMSE² = bias² + deviation² over seeds, but for the noise of the reference. ≈: the \
-             difference to the base may be chance (paired t-test over seeds, 5 %).",
+            " RMSE² = bias² + deviation² over seeds; intervals of both by the jackknife.",
+        );
+    }
+    if experiment.columns.contains(&Column::RmseRatio) {
+        text.push_str(
+            " ≈: the difference to the base may be chance, by the same rule as ranks: 95 % interval of the paired \
+             difference of squared errors over seeds (over tiles of the picture where a method with chance has one \
+             seed) and over the noise of the reference.",
         );
     }
     if experiment.variants.iter().any(|variant| variant.budget != Budget::Count) {

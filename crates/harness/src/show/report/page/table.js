@@ -3,13 +3,15 @@
 const baseline = (row) => scene().rows.find(({ variant, machine, outcome }) => (
   variant === data.baseline && machine === row.machine && outcome === 'done'));
 const errorsOf = (row) => row.errors[referenceName()];
+/** The places that a row may have. */
+const places = ({ rank_best: best, rank_worst: worst }) => (best === worst ? String(best) : `${best}–${worst}`);
 const over = (value, base) => (base ? value / base : null);
 const counts = (row) => Object.entries(row.counters).map(([name, count]) => `${count} ${name}`).join(', ');
 
 /** Columns by group; `value` sorts, `text` shows. */
 const GROUPS = [
   ['', [
-    { id: 'rank', title: 'rank', value: (row) => errorsOf(row).rank, text: (row) => `${errorsOf(row).rank}${errorsOf(row).rank_shared ? '=' : ''}` },
+    { id: 'rank', title: 'rank', value: (row) => errorsOf(row).rank_best, text: (row) => places(errorsOf(row)) },
     { id: 'method', title: 'method', value: (row) => row.variant },
   ]],
   ['work', [
@@ -25,9 +27,10 @@ const GROUPS = [
     { id: 'prepare', title: 'preparation', value: (row) => 1e3 * row.prepare_seconds },
   ]],
   ['error of sRGB values', [
-    { id: 'rmse', title: 'RMSE', value: (row) => errorsOf(row).display.rmse, best: Math.min },
-    { id: 'rmse_ratio', title: '÷ base', value: (row) => over(errorsOf(row).display.rmse, baseline(row) && errorsOf(baseline(row)).display.rmse),
-      text: (row, value) => short(value) + (errorsOf(row).differs_from_baseline === false && row.variant !== data.baseline ? ' ≈' : '') },
+    { id: 'rmse', title: 'RMSE', value: (row) => errorsOf(row).error, best: Math.min },
+    { id: 'interval', title: '95 %', value: (row) => errorsOf(row).error_interval?.[1] ?? null, text: (row) => errorsOf(row).error_interval?.slice(1).map(short).join('–') ?? '', optional: true },
+    { id: 'rmse_ratio', title: '÷ base', value: (row) => over(errorsOf(row).error, baseline(row) && errorsOf(baseline(row)).error),
+      text: (row, value) => short(value) + (!errorsOf(row).differs_from_baseline && row.variant !== data.baseline ? ' ≈' : '') },
     { id: 'bias', title: 'bias', value: (row) => errorsOf(row).bias, optional: true },
     { id: 'deviation', title: 'deviation', value: (row) => errorsOf(row).deviation, optional: true },
     { id: 'psnr', title: 'PSNR dB', value: (row) => errorsOf(row).display.psnr ?? Infinity, text: (row, value) => (value === Infinity ? '∞' : value.toFixed(2)), best: Math.max },

@@ -96,8 +96,8 @@ function drawPanel(shown) {
     if (floor) add('Noise', `${short(floor.display)} (sRGB RMSE)`);
   } else {
     const row = rowOf(shown);
-    const { display, rank, rank_shared: shared } = row.errors[referenceName()];
-    add('Rank', `${rank}${shared ? '=' : ''}`);
+    const { display } = row.errors[referenceName()];
+    add('Rank', places(row.errors[referenceName()]));
     add('Time', `${short(1e3 * row.seconds)} ms`);
     add('RMSE', short(display.rmse));
     add('PSNR', display.psnr === null ? '∞' : `${display.psnr.toFixed(2)} dB`);
