@@ -56,13 +56,17 @@ fn over_scenes(values: &[f64]) -> Estimate {
     let count = values.len() as f64;
     match values.len() {
         1 => Estimate { value, half: f64::INFINITY },
-        _ => Estimate::new(value, &[(variance(values) / count, count - 1.0)]),
+        _ => Estimate::new(value, &[(variance(values) / count, values.len() - 1)]),
     }
 }
 
 impl Standing {
     /// All variants with a row, in the experiment's order.
-    pub(crate) fn all(experiment: &Experiment, scenes: &[SceneAnswer], reference: &str) -> Vec<Self> {
+    pub(crate) fn all(
+        experiment: &Experiment,
+        scenes: &[SceneAnswer],
+        reference: &str,
+    ) -> Vec<Self> {
         let curves = series::of_experiment(experiment, scenes);
         let mut rows: BTreeMap<(usize, &str), Vec<(&SceneAnswer, &Row)>> = BTreeMap::new();
         for scene in scenes {
@@ -87,9 +91,12 @@ impl Standing {
                 Some((*scene, *row, row.medians()?, scene.baseline(row)?.medians()?))
             })
         };
-        let ratio = |of: &dyn Fn(&Medians) -> f64| Ratio::new(pairs().map(|(_, _, own, base)| of(own) / of(base)));
+        let ratio = |of: &dyn Fn(&Medians) -> f64| {
+            Ratio::new(pairs().map(|(_, _, own, base)| of(own) / of(base)))
+        };
         let rmse = |medians: &Medians| medians.samples[reference].mean_squared().sqrt();
-        let relative = |medians: &Medians| medians.errors[reference].linear.rel_mse * medians.seconds.median;
+        let relative =
+            |medians: &Medians| medians.errors[reference].linear.rel_mse * medians.seconds.median;
         let told = pairs().filter_map(|(scene, row, ..)| {
             scene.excess(row, reference).filter(|excess| !excess.holds_zero())
         });
@@ -103,7 +110,8 @@ impl Standing {
                 Reached::Before(_) | Reached::Never => None,
             }
         });
-        let errors = pairs().map(|(scene, _, own, base)| (scene.scene.clone(), rmse(own) / rmse(base)));
+        let errors =
+            pairs().map(|(scene, _, own, base)| (scene.scene.clone(), rmse(own) / rmse(base)));
         Self {
             variant,
             machine: machine.to_owned(),
@@ -135,7 +143,10 @@ mod tests {
             Ratio::new([0.5, 0.8, 0.9].into_iter()).expect("three");
         let [lower, upper] = interval.expect("of three");
         assert!((value - 0.711_379).abs() < 1e-5 && scenes == 3, "{value}");
-        assert!((lower - 0.328_55).abs() < 1e-4 && (upper - 1.540_3).abs() < 1e-3, "{lower} {upper}");
+        assert!(
+            (lower - 0.328_55).abs() < 1e-4 && (upper - 1.540_3).abs() < 1e-3,
+            "{lower} {upper}"
+        );
         let one = Ratio::new([0.5].into_iter()).expect("one");
         assert_eq!((one.interval, one.scenes), (None, 1));
         assert_eq!(Ratio::new([0.0].into_iter()), None);

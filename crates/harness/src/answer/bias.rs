@@ -70,7 +70,7 @@ pub(crate) fn of_cells(
 pub(super) fn split(
     pairs: &[(&RadianceImage, &RadianceImage)],
     floor: f64,
-    noise: Option<(f64, f64)>,
+    noise: Option<(f64, usize)>,
 ) -> Split {
     let count = pairs.len();
     let components = pairs[0].0.pixels.as_flattened().len();
@@ -89,12 +89,15 @@ pub(super) fn split(
     }
     let scale = 1.0 / components as f64;
     let [squared_bias, variance] = [0, 1].map(|part| {
+        let value = all[part] * scale;
+        if count < 3 {
+            // One seed of two is no sample.
+            return Estimate { value, half: f64::INFINITY };
+        }
         let seeds: Vec<_> = without.iter().map(|parts| parts[part] * scale).collect();
         let mut spread = vec![jackknife(&seeds)];
         spread.extend(noise.filter(|_| part == 0));
-        let estimate = Estimate::new(all[part] * scale, &spread);
-        // Two seeds without one are no sample.
-        if count > 2 { estimate } else { Estimate { half: f64::INFINITY, ..estimate } }
+        Estimate::new(value, &spread)
     });
     let squared_bias = Estimate { value: squared_bias.value - floor.powi(2), ..squared_bias };
     Split { squared_bias, variance }
@@ -112,9 +115,9 @@ fn add(parts: &mut [f64; 2], errors: &[f64], but: Option<usize>) {
 }
 
 /// The variance of an estimate from those without each of the seeds, and its degrees of freedom.
-fn jackknife(without: &[f64]) -> (f64, f64) {
+fn jackknife(without: &[f64]) -> (f64, usize) {
     let count = without.len() as f64;
-    ((count - 1.0).powi(2) / count * variance(without), count - 1.0)
+    ((count - 1.0).powi(2) / count * variance(without), without.len() - 1)
 }
 
 #[cfg(test)]

@@ -34,3 +34,21 @@ impl std::fmt::Display for Rank {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_share_the_places_that_chance_may_give_them() {
+        // A, B and C differ by 1 each; what is off by 1 may be chance, by 2 not.
+        let errors = [0.0, 1.0, 2.0];
+        let ranks = errors.map(|own| {
+            let excess = errors.map(|other| Some(Estimate { value: own - other, half: 1.5 }));
+            Rank::among(excess.into_iter())
+        });
+        assert_eq!(ranks.map(|rank| rank.to_string()), ["1–2", "1–3", "2–3"]);
+        // Where nothing is known of chance, any place is possible.
+        assert_eq!(Rank::among([None, None].into_iter()), Rank { best: 1, worst: 2 });
+    }
+}

@@ -167,8 +167,13 @@ mod tests {
     fn cell(seed: u64, rmse: f64, program: &str) -> Cell {
         let [mse, mae, psnr, ssim, rel_mse, smape, rel_p999] = [0.0; 7];
         let errors = Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999 };
-        let comparison =
-            Comparison { linear: errors, display: errors, linear_floor: 0.0, display_floor: 0.0, tiles: None };
+        let comparison = Comparison {
+            linear: errors,
+            display: errors,
+            linear_floor: 0.0,
+            display_floor: 0.0,
+            tiles: None,
+        };
         let done = Done {
             amount: Some(4.0),
             visibility: None,

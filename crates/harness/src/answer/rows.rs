@@ -268,13 +268,15 @@ fn checkpoints(runs: &[&Done]) -> Vec<Checkpoint> {
 }
 
 fn sample(pictures: &[(u64, &Done)], reference: &str, is_random: bool) -> Sample {
-    let compared = pictures.iter().filter_map(|(seed, done)| Some((*seed, done.errors.get(reference)?)));
+    let compared =
+        pictures.iter().filter_map(|(seed, done)| Some((*seed, done.errors.get(reference)?)));
     let error = |(seed, comparison): (u64, &Comparison)| SeedError {
         seed,
         squared: comparison.display.mse,
         tiles: comparison.tiles.clone(),
     };
-    let floor = pictures[0].1.errors.get(reference).map_or(0.0, |comparison| comparison.display_floor);
+    let floor =
+        pictures[0].1.errors.get(reference).map_or(0.0, |comparison| comparison.display_floor);
     Sample { seeds: compared.map(error).collect(), is_random, floor }
 }
 

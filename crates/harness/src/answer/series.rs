@@ -141,11 +141,7 @@ fn point(medians: &Medians, reference: &str) -> Option<Point> {
     Some(Point {
         amount: medians.amount,
         seconds: [seconds.median, seconds.lower, seconds.upper],
-        rmse: [
-            rmse,
-            seeds().fold(rmse, f64::min),
-            seeds().fold(rmse, f64::max),
-        ],
+        rmse: [rmse, seeds().fold(rmse, f64::min), seeds().fold(rmse, f64::max)],
     })
 }
 

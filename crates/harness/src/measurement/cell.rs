@@ -230,8 +230,13 @@ mod tests {
             smape: 0.2,
             rel_p999: 0.9,
         };
-        let comparison =
-            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4, tiles: None };
+        let comparison = Comparison {
+            linear: errors,
+            display: errors,
+            linear_floor: 1e-3,
+            display_floor: 1e-4,
+            tiles: None,
+        };
         let checkpoint = Checkpoint {
             amount: 16.0,
             step_seconds: 0.01,

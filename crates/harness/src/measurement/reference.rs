@@ -201,7 +201,8 @@ impl SceneReference {
 
     /// The squared errors of a picture of this seed by tile.
     pub(crate) fn tiles(&self, image: &RadianceImage, seed: u64) -> Tiles {
-        let [image, truth] = [image, self.image_for(seed)].map(|image| image.display(self.exposure));
+        let [image, truth] =
+            [image, self.image_for(seed)].map(|image| image.display(self.exposure));
         Tiles::new(&image, &truth, self.display_halves.as_ref())
     }
 }

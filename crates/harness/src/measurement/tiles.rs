@@ -32,7 +32,8 @@ impl Tiles {
     ) -> Self {
         let squared = |truth| by_tile(picture, |index| squared(picture, truth, index));
         let imbalance = halves.map_or(Vec::new(), |[a, b]| {
-            let of = |index| 0.5 * (self::squared(picture, a, index) - self::squared(picture, b, index));
+            let of =
+                |index| 0.5 * (self::squared(picture, a, index) - self::squared(picture, b, index));
             by_tile(picture, of)
         });
         Self { squared: squared(truth), imbalance }
@@ -72,7 +73,8 @@ mod tests {
         let halves = [image(|index| 0.02 + 0.001 * (index % 3) as f32), image(|_| 0.019)];
         let tiles = Tiles::new(&picture, &truth, Some(&halves));
         let mean = |truth: &RadianceImage| {
-            (0..13 * 11).map(|index| squared(&picture, truth, index)).sum::<f64>() / (3.0 * 13.0 * 11.0)
+            (0..13 * 11).map(|index| squared(&picture, truth, index)).sum::<f64>()
+                / (3.0 * 13.0 * 11.0)
         };
         let sum = |values: &[f32]| values.iter().copied().map(f64::from).sum::<f64>();
         assert_eq!([tiles.squared.len(), tiles.imbalance.len()], [TILES; 2]);

@@ -162,8 +162,13 @@ pub(crate) mod tests {
             smape: 0.2,
             rel_p999: 0.9,
         };
-        let comparison =
-            Comparison { linear: errors, display: errors, linear_floor: 1e-3, display_floor: 1e-4, tiles: None };
+        let comparison = Comparison {
+            linear: errors,
+            display: errors,
+            linear_floor: 1e-3,
+            display_floor: 1e-4,
+            tiles: None,
+        };
         let done = Done {
             amount: Some(32.0),
             bake_seconds: 0.0,

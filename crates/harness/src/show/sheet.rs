@@ -79,7 +79,8 @@ fn entries(
         let (Some(medians), true) = (row.medians(), last == Some(row.variant)) else { continue };
         let path = image_path(out, &cells.scene, &medians.key).with_extension("exr");
         let image = RadianceImage::read_exr(&path).map_err(Failure::input)?;
-        let rmse = |reference: &SceneReference| medians.samples[&reference.name].mean_squared().sqrt();
+        let rmse =
+            |reference: &SceneReference| medians.samples[&reference.name].mean_squared().sqrt();
         let rmse = cells.references.iter().map(rmse).collect();
         entries.push(MethodPicture { label: variant.label(), image, rmse });
     }

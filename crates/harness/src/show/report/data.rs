@@ -127,7 +127,7 @@ fn done(answer: &SceneAnswer, index: usize, medians: &Medians, ranks: &Ranks<'_>
             "rank_worst": rank.map(|rank| rank.worst),
             "differs_from_baseline": excess.is_some_and(|excess| !excess.holds_zero()),
             "error": sample.mean_squared().sqrt(),
-            "error_interval": sample.squared_error().map(|squared| squared.roots()),
+            "error_interval": sample.interval(),
             "linear": errors.linear,
             "display": errors.display,
             "bias": split.map(|split| split.squared_bias.roots()[0]),

@@ -1,6 +1,6 @@
 //! The first table of an answer: methods over all scenes, and a sentence made from it.
 
-use super::Table;
+use super::{Table, interval};
 use crate::answer::across::{Ratio, Standing};
 use crate::answer::rows::SceneAnswer;
 use crate::question::experiment::Experiment;
@@ -20,7 +20,8 @@ pub(crate) fn across_scenes(experiment: &Experiment, scenes: &[SceneAnswer]) -> 
     ];
     let table = |reference: &str| {
         let line = |standing: &Standing| {
-            let value = |ratio: Option<Ratio>| ratio.map_or_else(String::new, |ratio| short(ratio.value));
+            let value =
+                |ratio: Option<Ratio>| ratio.map_or_else(String::new, |ratio| short(ratio.value));
             let [better, worse] = standing.wins;
             vec![
                 label(experiment, standing, scenes),
@@ -29,7 +30,9 @@ pub(crate) fn across_scenes(experiment: &Experiment, scenes: &[SceneAnswer]) -> 
                 format!("{better} – {worse}"),
                 value(standing.time),
                 value(standing.cost),
-                standing.time_to_error.map_or_else(String::new, |ratio| reached(ratio, scenes.len())),
+                standing
+                    .time_to_error
+                    .map_or_else(String::new, |ratio| reached(ratio, scenes.len())),
             ]
         };
         let standings = Standing::all(experiment, scenes, reference);
@@ -48,10 +51,6 @@ fn label(experiment: &Experiment, standing: &Standing, scenes: &[SceneAnswer]) -
     let several = machines.any(|machine| *machine != standing.machine);
     let machine = if several { format!(" @{}", standing.machine) } else { String::new() };
     experiment.variants[standing.variant].label() + &machine
-}
-
-fn interval([lower, upper]: [f64; 2]) -> String {
-    format!("{}–{}", short(lower), short(upper))
 }
 
 /// Names the scenes where a curve gets there, unless it does on all.
@@ -116,7 +115,8 @@ fn sentence(
     let (best, error) = least(|rival| rival.error)?;
     let range = error.interval.map_or_else(String::new, |ends| format!(" ({})", interval(ends)));
     let [better, worse] = best.wins;
-    let equals = rivals.iter().filter(|rival| !std::ptr::eq(**rival, best) && rival.may_equal(best));
+    let equals =
+        rivals.iter().filter(|rival| !std::ptr::eq(**rival, best) && rival.may_equal(best));
     let equals: Vec<_> = equals.map(|rival| name(rival)).collect();
     let rest = match equals.is_empty() {
         true => String::new(),

@@ -74,7 +74,8 @@ fn csv_line(
             let metrics = values(&comparison.linear).chain(values(&comparison.display));
             fields.extend(numbers.map(|number| number.to_string()));
             fields.push(sample.mean_squared().sqrt().to_string());
-            fields.extend(roots(sample.squared_error()).into_iter().skip(1));
+            let ends = sample.interval().map(|ends| ends.map(|end| end.to_string()));
+            fields.extend(ends.unwrap_or_default());
             fields.extend(roots(split.map(|split| split.squared_bias)));
             fields.extend(roots(split.map(|split| split.variance)));
             fields.extend(metrics.map(|(_, value)| value.to_string()));

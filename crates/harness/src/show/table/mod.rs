@@ -20,7 +20,7 @@ use crate::question::plan::{Budget, Variant};
 use crate::question::references::Reference;
 use crate::show::numbers::{self, milliseconds, short};
 
-pub(crate) use across::{verdicts, across_scenes};
+pub(crate) use across::{across_scenes, verdicts};
 pub(crate) use csv::csv;
 pub(crate) use latex::latex;
 pub(crate) use markdown::markdown;
@@ -122,7 +122,7 @@ fn against(experiment: &Experiment, scene: &SceneAnswer, reference: &Reference) 
 fn shown(experiment: &Experiment, scene: &SceneAnswer) -> Vec<Column> {
     let any = |of: fn(&Medians) -> bool| scene.rows.iter().filter_map(Row::medians).any(of);
     let (split, baked) = (any(|row| !row.split.is_empty()), any(|row| row.bake_seconds > 0.0));
-    let known = |row: &Medians| row.samples.values().any(|sample| sample.squared_error().is_some());
+    let known = |row: &Medians| row.samples.values().any(|sample| sample.interval().is_some());
     let mut columns = experiment.columns.clone();
     if baked && !columns.contains(&Column::Bake) {
         let time = columns.iter().position(|&column| column == Column::Time);
@@ -130,7 +130,10 @@ fn shown(experiment: &Experiment, scene: &SceneAnswer) -> Vec<Column> {
     }
     if !columns.contains(&Column::Interval) {
         let error = columns.iter().position(|&column| column == Column::Rmse);
-        columns.splice(error.map_or(0..0, |error| error + 1..error + 1), error.map(|_| Column::Interval));
+        columns.splice(
+            error.map_or(0..0, |error| error + 1..error + 1),
+            error.map(|_| Column::Interval),
+        );
     }
     columns.retain(|column| match column {
         Column::Interval => any(known),
@@ -165,9 +168,10 @@ impl Place<'_> {
             Column::Bake => milliseconds(medians.bake_seconds),
             Column::TimeRatio => ratio(&|row| row.seconds.median),
             Column::Rmse => short(sample.mean_squared().sqrt()),
-            Column::Interval => sample.squared_error().map_or_else(String::new, interval),
+            Column::Interval => sample.interval().map_or_else(String::new, interval),
             Column::RmseRatio => {
-                ratio(&|row| row.samples[self.reference].mean_squared().sqrt()) + self.insignificance()
+                ratio(&|row| row.samples[self.reference].mean_squared().sqrt())
+                    + self.insignificance()
             }
             Column::Bias => split.map_or_else(String::new, |split| part(split.squared_bias)),
             Column::Deviation => split.map_or_else(String::new, |split| part(split.variance)),
@@ -217,17 +221,15 @@ fn counts(medians: &Medians) -> String {
     counts.collect::<Vec<_>>().join(", ")
 }
 
-/// Of the root of a square.
-fn interval(squared: Estimate) -> String {
-    let [_, lower, upper] = squared.roots();
+fn interval([lower, upper]: [f64; 2]) -> String {
     format!("{}–{}", short(lower), short(upper))
 }
 
 /// A part of an error with its interval, where there are seeds enough for it.
 fn part(squared: Estimate) -> String {
-    let [root, ..] = squared.roots();
+    let [root, lower, upper] = squared.roots();
     match squared.half.is_finite() {
-        true => format!("{} ({})", short(root), interval(squared)),
+        true => format!("{} ({})", short(root), interval([lower, upper])),
         false => short(root),
     }
 }

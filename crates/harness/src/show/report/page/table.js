@@ -28,7 +28,7 @@ const GROUPS = [
   ]],
   ['error of sRGB values', [
     { id: 'rmse', title: 'RMSE', value: (row) => errorsOf(row).error, best: Math.min },
-    { id: 'interval', title: '95 %', value: (row) => errorsOf(row).error_interval?.[1] ?? null, text: (row) => errorsOf(row).error_interval?.slice(1).map(short).join('–') ?? '', optional: true },
+    { id: 'interval', title: '95 %', value: (row) => errorsOf(row).error_interval?.[0] ?? null, text: (row) => errorsOf(row).error_interval?.map(short).join('–') ?? '', optional: true },
     { id: 'rmse_ratio', title: '÷ base', value: (row) => over(errorsOf(row).error, baseline(row) && errorsOf(baseline(row)).error),
       text: (row, value) => short(value) + (!errorsOf(row).differs_from_baseline && row.variant !== data.baseline ? ' ≈' : '') },
     { id: 'bias', title: 'bias', value: (row) => errorsOf(row).bias, optional: true },
