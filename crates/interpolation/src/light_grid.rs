@@ -7,7 +7,7 @@ use manylights_method::PassTimes;
 use manylights_reflectance::ReceiverKinds;
 use manylights_scene::{AreaLight, Scene};
 
-use crate::{Grid, GridCoefficients, GridPart, Interpolation, Pixels, Reach, Reading, Settings};
+use crate::{Grid, GridCoefficients, Interpolation, Pixels, Reach, Reading, Settings};
 
 /// Coefficients of the lights that are far from the vertices of a grid, on the adapter, and the others.
 pub struct LightGrid {
@@ -65,21 +65,19 @@ impl LightGrid {
         self.times.merge(&before.times);
     }
 
-    /// What a picture of so many lights reads of it.
+    /// What a picture reads of it.
     ///
     /// # Errors
     /// Where the adapter refuses a kernel or a buffer.
-    pub fn part(
+    pub fn reading(
         &self,
         gpu: &Gpu,
         kinds: ReceiverKinds,
         pixels: &Pixels<'_>,
-        lights: usize,
-    ) -> Result<GridPart, Error> {
+    ) -> Result<Reading, Error> {
         let GridCoefficients { grid, bands, ref buffer, .. } = self.coefficients;
         let Interpolation { scheme, order, .. } = self.how;
         let settings = Settings { grid, scheme, bands, kinds, order };
-        let reading = Reading::new(gpu, &settings, buffer, pixels)?;
-        Ok(GridPart::new(reading, lights, self.near.len()))
+        Reading::new(gpu, &settings, buffer, pixels)
     }
 }

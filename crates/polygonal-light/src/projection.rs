@@ -8,8 +8,10 @@ use manylights_harmonics::polygon::PolygonProjection;
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_harmonics::zonal::TriangleForm;
 use manylights_interpolation::{
-    self as interpolation, Grid, GridCoefficients, Loops, ProjectionShader, SourceShader,
+    self as interpolation, Grid, GridCoefficients, Interpolation, Loops, ProjectionShader,
+    SourceShader,
 };
+use manylights_method::Parameters;
 use manylights_scene::AreaLight;
 
 use crate::gather::{form_features, needs_corners, points_module};
@@ -28,6 +30,18 @@ const LANES: u32 = 64;
 struct Told {
     spacing: [f32; 3],
     vertices: u32,
+}
+
+/// As [`Estimator::PROJECT`](manylights_area_lights::Estimator::PROJECT).
+pub(crate) fn project_lights(
+    gpu: &Gpu,
+    grid: Grid<f32>,
+    how: Interpolation,
+    parameters: &Parameters,
+    lights: &[AreaLight],
+) -> Result<(GridCoefficients, Vec<PassTime>), Error> {
+    let gradients = how.scheme.reads_gradients();
+    project(gpu, grid, &Settings::new(parameters), (gradients, how.loops), lights)
 }
 
 /// The coefficients of triangles at the vertices of a grid, with gradients or without, and the time of each pass.

@@ -46,6 +46,11 @@ impl SphereLight {
             AreaLight::Triangle { .. } => None,
         }
     }
+
+    /// Of all that are spheres.
+    pub(crate) fn all(lights: &[AreaLight]) -> Vec<Self> {
+        lights.iter().filter_map(Self::of).collect()
+    }
 }
 
 /// The kernel for receivers of the given lobes.

@@ -1,11 +1,28 @@
 //! Spheres at the vertices of a grid.
 
-use manylights_gpu::Error;
+use manylights_gpu::{Error, Gpu};
 use manylights_harmonics::wgsl::{self, Function};
-use manylights_interpolation::{Loops, ProjectionShader, SourceShader};
+use manylights_interpolation::{
+    Grid, GridCoefficients, Interpolation, Loops, ProjectionShader, SourceShader, project,
+};
+use manylights_method::{Parameters, PassTime};
+use manylights_scene::AreaLight;
 
 use crate::gather::CAPACITY;
-use crate::{Extent, Settings};
+use crate::{Extent, Settings, SphereLight};
+
+/// As [`Estimator::PROJECT`](manylights_area_lights::Estimator::PROJECT).
+pub(crate) fn project_lights(
+    gpu: &Gpu,
+    grid: Grid<f32>,
+    how: Interpolation,
+    parameters: &Parameters,
+    lights: &[AreaLight],
+) -> Result<(GridCoefficients, Vec<PassTime>), Error> {
+    let settings = Settings::new(parameters);
+    let shader = linked_projection(&settings, how.scheme.reads_gradients(), how.loops)?;
+    project(gpu, grid, &shader, &SphereLight::all(lights))
+}
 
 /// The projection of spheres, records of [`SphereLight`](crate::SphereLight), by the recurrence.
 ///

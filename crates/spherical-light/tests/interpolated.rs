@@ -142,6 +142,8 @@ fn near_lights_are_counted_and_bakes_say_what_they_depend_on() {
             let bake = baking.bake(&frames[0], &settings).expect("a bake");
             assert!(bake.pass_times().iter().any(|time| time.pass == "project"));
             let run = bake.prepare(&frames[0], &settings).expect("a run");
+            let names: Vec<_> = run.counters().iter().map(|(name, _)| *name).collect();
+            assert_eq!(names, method.counters().iter().map(|info| info.name).collect::<Vec<_>>());
             let (_, counters) = finished(run);
             assert_eq!(counters, [scene.area_lights.len() as u64, counted, 0]);
         });
