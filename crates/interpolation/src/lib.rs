@@ -5,6 +5,11 @@
 //! - with gradients at ((vertex n² + i) 3 + channel), the value and its three derivatives by a cell, ∂x h_x, ∂y
 //!   h_y, ∂z h_z;
 //! - without at vertex n² + i, red, green, blue and 0.
+//!
+//! # Deviations from the papers
+//! - The thesis does not say what shape its boxes have. Here a box that is no cube has no more vertices than a
+//!   cube, spread so that cells are near to cubes ([`Grid::of_cubes`]).
+//! - Lights within two cells of the grid ([`Reach`]), which no scheme follows, are none of its.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 #![forbid(unsafe_code)]
 

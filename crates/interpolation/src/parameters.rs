@@ -18,7 +18,7 @@ pub enum Bounds {
 pub struct Interpolation {
     /// Between vertices.
     pub scheme: Scheme,
-    /// Along each side.
+    /// As [`Grid::of_cubes`](crate::Grid::of_cubes) has it.
     pub vertices: usize,
     /// Where they lie.
     pub bounds: Bounds,
@@ -71,7 +71,8 @@ impl Interpolation {
         name: "grid",
         formerly: None,
         introduced: Some("8"),
-        help: "vertices along each side of the grid",
+        help: "vertices along each side of a cube; of another box their cube is the most in all, spread so that \
+               cells are near to cubes",
         kind: ParameterKind::Count { default: 8, min: 2, max: 64 },
     };
 

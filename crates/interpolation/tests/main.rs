@@ -2,6 +2,7 @@
 
 mod common;
 mod grid;
+mod near;
 mod reading;
 mod schemes;
 

@@ -21,13 +21,13 @@ const SCHEMES: [(&str, Scheme); 4] = [
     ("hermite", Scheme::Hermite),
 ];
 
-/// Of all that is seen, so many vertices a side.
+/// Of all that is seen, as many vertices as a cube with so many a side.
 fn grid_of(surfaces: &[SurfaceRecord], vertices: usize) -> Grid<f32> {
     let seen = surfaces.iter().filter(|s| s.triangle != SurfaceRecord::NO_TRIANGLE);
     let positions: Vec<Vec3> = seen.map(|surface| surface.position).collect();
     let least = positions.iter().copied().reduce(Vec3::min).expect("something is seen");
     let most = positions.iter().copied().reduce(Vec3::max).expect("something is seen");
-    Grid::over([least.to_array(), most.to_array()], [vertices; 3])
+    Grid::of_cubes([least.to_array(), most.to_array()], vertices)
 }
 
 /// The largest error of a pixel over the largest radiance.
