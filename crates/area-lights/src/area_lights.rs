@@ -1,6 +1,6 @@
 //! What methods on lights with a surface have in common, but for the estimator.
 
-use manylights_interpolation::{Interpolation, LightGrid, Lit};
+use manylights_interpolation::{Held, Interpolation, LightGrid, Lit};
 use manylights_method::{
     Bake, Baking, Cost, CounterInfo, Dependencies, Direction, Error, Frame, Method, ParameterInfo,
     Parameters, PassTime, Processor, Run,
@@ -120,7 +120,7 @@ fn light_grid<M: Estimator>(
     let AreaLightFrame { scene, on_gpu, pixels, ref lights, .. } = *frame;
     let gpu = on_gpu.gpu();
     let lit = Lit { gpu, scene, surfaces: (on_gpu.surfaces(), pixels), lights };
-    let project = |grid, far: &[_]| project(gpu, grid, how, parameters, far);
+    let project = |grid, held: &Held<'_>| project(gpu, grid, how, parameters, held);
     Ok(Some(LightGrid::new(how, &lit, project)?))
 }
 

@@ -1,7 +1,7 @@
 //! What an estimator is.
 
 use manylights_gpu::{Buffer, Gpu};
-use manylights_interpolation::{Grid, GridCoefficients, Interpolation};
+use manylights_interpolation::{Grid, GridCoefficients, Held, Interpolation};
 use manylights_method::{Error, ParameterInfo, Parameters, PassTime};
 use manylights_scene::{AreaLight, Scene};
 
@@ -57,7 +57,7 @@ pub type Project = fn(
     Grid<f32>,
     Interpolation,
     &Parameters,
-    &[AreaLight],
+    &Held<'_>,
 ) -> Result<(GridCoefficients, Vec<PassTime>), manylights_gpu::Error>;
 
 /// What an estimator tabulates of the materials of a scene and of its own formulas.

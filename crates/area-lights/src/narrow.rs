@@ -1,6 +1,6 @@
 //! Surfaces that bands cannot see.
 
-use manylights_method::{ChoiceWord, Error, ParameterInfo, ParameterKind, Parameters};
+use manylights_method::Error;
 use manylights_reflectance::{NARROW, is_narrow};
 use manylights_scene::{Lobe, Scene};
 
@@ -17,31 +17,6 @@ pub enum Narrow {
 }
 
 impl Narrow {
-    /// Of methods that ask.
-    pub const PARAMETER: ParameterInfo = ParameterInfo {
-        name: "narrow",
-        formerly: None,
-        introduced: None,
-        help: "scenes with specular lobes that no affordable number of bands shows",
-        kind: ParameterKind::Choice {
-            default: "decline",
-            words: &[
-                ChoiceWord { word: "decline", help: "those of roughness below 0.3" },
-                ChoiceWord { word: "keep", help: "render them, with the error that they have" },
-                ChoiceWord {
-                    word: "ltc",
-                    help: "render those lobes by linearly transformed cosines",
-                },
-            ],
-        },
-    };
-
-    /// By name.
-    pub fn new(parameters: &Parameters) -> Self {
-        let words = [("decline", Self::Decline), ("keep", Self::Keep), ("ltc", Self::Transformed)];
-        parameters.choice(Self::PARAMETER.name, &words)
-    }
-
     /// Refuses a scene that this is to decline.
     ///
     /// # Errors
@@ -67,21 +42,5 @@ impl Narrow {
             }
             _ => Ok(()),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_word_means_what_it_says() {
-        const INFOS: &[ParameterInfo] = &[Narrow::PARAMETER];
-        let set = |word| Narrow::new(&Parameters::new(INFOS, [("narrow", word)]).expect("a word"));
-        assert_eq!(
-            ["decline", "keep", "ltc"].map(set),
-            [Narrow::Decline, Narrow::Keep, Narrow::Transformed]
-        );
-        assert_eq!(Narrow::new(&Parameters::defaults(INFOS)), Narrow::Decline);
     }
 }

@@ -27,19 +27,23 @@ pub fn cap_operations(kinds: ReceiverKinds, bands: usize) -> usize {
 pub const TRANSFORMED_OPERATIONS: usize = 600;
 
 const LIGHTS: CounterInfo = CounterInfo { name: "lights", help: "that were gathered" };
+const NEAR_LIGHTS: CounterInfo = CounterInfo {
+    name: "near_lights",
+    help: "met at each pixel, since they are within two cells of the grid",
+};
+const SMOOTHED_LIGHTS: CounterInfo = CounterInfo {
+    name: "smoothed_lights",
+    help: "held by the grid as discs, since they are within two cells of it",
+};
+const PIXELS_OUTSIDE: CounterInfo =
+    CounterInfo { name: "pixels_outside", help: "of the grid, for which its nearest point stands" };
 
 /// What every run counts.
 pub(crate) const COUNTERS: [CounterInfo; 1] = [LIGHTS];
 
-/// What a run counts whose lights a grid may hold.
-pub(crate) const GRID_COUNTERS: [CounterInfo; 3] = [
-    LIGHTS,
-    CounterInfo {
-        name: "near_lights",
-        help: "met at each pixel, since they are within two cells of the grid",
-    },
-    CounterInfo { name: "pixels_outside", help: "of the grid, for which its nearest point stands" },
-];
+/// What runs may count whose lights a grid may hold.
+pub(crate) const GRID_COUNTERS: [CounterInfo; 4] =
+    [LIGHTS, NEAR_LIGHTS, SMOOTHED_LIGHTS, PIXELS_OUTSIDE];
 
 /// A grid is read first, where there is one. Then what the shader reads of the other lights is laid out and gathered
 /// batch by batch.
@@ -60,6 +64,8 @@ struct GridPart {
     reading: Reading,
     /// Lights that it does not hold.
     near: u64,
+    /// Near ones that it holds, where it does.
+    smoothed: Option<usize>,
     is_read: bool,
     outside: u32,
 }
@@ -82,7 +88,8 @@ impl<'a> AreaLightRun<'a> {
             let pixels = Pixels { surfaces, count: pixels, camera: eye, tables, results };
             let reading = grid.reading(gpu, kinds, &pixels)?;
             let near = grid.near().len() as u64;
-            Ok(GridPart { reading, near, is_read: false, outside: 0 })
+            let smoothed = grid.smoothed();
+            Ok(GridPart { reading, near, smoothed, is_read: false, outside: 0 })
         });
         let a_batch = u64::from(pixels) * (gather.capacity() * operations) as u64;
         Ok(Self {
@@ -162,11 +169,13 @@ impl Run for AreaLightRun<'_> {
             None => gathered,
             Some(grid) => grid.is_read && (gathered || grid.near == 0),
         };
-        let mut counters = vec![if done { self.lights } else { 0 }];
-        if let Some(grid) = &self.grid {
-            counters.extend([grid.near, grid.outside.into()]);
-        }
-        GRID_COUNTERS.iter().map(|info| info.name).zip(counters).collect()
+        let lights = (LIGHTS.name, if done { self.lights } else { 0 });
+        let Some(grid) = &self.grid else { return vec![lights] };
+        let near = match grid.smoothed {
+            Some(smoothed) => (SMOOTHED_LIGHTS.name, smoothed as u64),
+            None => (NEAR_LIGHTS.name, grid.near),
+        };
+        vec![lights, near, (PIXELS_OUTSIDE.name, grid.outside.into())]
     }
 
     fn pass_times(&self) -> Vec<PassTime> {

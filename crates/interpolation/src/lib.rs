@@ -9,7 +9,8 @@
 //! # Deviations from the papers
 //! - The thesis does not say what shape its boxes have. Here a box that is no cube has no more vertices than a
 //!   cube, spread so that cells are near to cubes ([`Grid::of_cubes`]).
-//! - Lights within two cells of the grid ([`Reach`]), which no scheme follows, are none of its.
+//! - Lights within two cells of the grid ([`Reach`]), which no scheme follows, are none of its, or smoothed
+//!   ([`Near`]).
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 #![forbid(unsafe_code)]
 
@@ -30,9 +31,9 @@ mod sorted_wgsl;
 mod view;
 
 pub use grid::{Grid, Place};
-pub use light_grid::{LightGrid, Lit};
+pub use light_grid::{Held, LightGrid, Lit};
 pub use near::Reach;
-pub use parameters::{Bounds, Interpolation};
+pub use parameters::{Bounds, Interpolation, Near};
 pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};
 pub use reading::Reading;
 pub use scheme::{CORNERS, Scheme, Weights};

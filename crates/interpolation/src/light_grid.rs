@@ -7,13 +7,14 @@ use manylights_method::PassTimes;
 use manylights_reflectance::ReceiverKinds;
 use manylights_scene::{AreaLight, Scene};
 
-use crate::{Grid, GridCoefficients, Interpolation, Pixels, Reach, Reading, Settings};
+use crate::{Grid, GridCoefficients, Interpolation, Near, Pixels, Reach, Reading, Settings};
 
 /// Coefficients of the lights that are far from the vertices of a grid, on the adapter, and the others.
 pub struct LightGrid {
     how: Interpolation,
     coefficients: GridCoefficients,
     near: Vec<AreaLight>,
+    smoothed: usize,
     times: PassTimes,
 }
 
@@ -29,6 +30,14 @@ pub struct Lit<'a> {
     pub lights: &'a [AreaLight],
 }
 
+/// What a grid holds.
+pub struct Held<'a> {
+    /// As they are.
+    pub far: &'a [AreaLight],
+    /// Smoothed.
+    pub near: &'a [AreaLight],
+}
+
 impl LightGrid {
     /// `project` makes coefficients of lights at the vertices of a grid.
     ///
@@ -37,22 +46,31 @@ impl LightGrid {
     pub fn new(
         how: Interpolation,
         lit: &Lit<'_>,
-        project: impl Fn(Grid<f32>, &[AreaLight]) -> Result<(GridCoefficients, Vec<PassTime>), Error>,
+        project: impl Fn(Grid<f32>, &Held<'_>) -> Result<(GridCoefficients, Vec<PassTime>), Error>,
     ) -> Result<Self, Error> {
         let start = Instant::now();
         let grid = how.grid(lit.gpu, lit.scene, lit.surfaces)?;
         let reach = Reach::new(&grid);
         let (near, far): (Vec<_>, Vec<_>) =
             lit.lights.iter().copied().partition(|light| reach.meets(light));
-        let (coefficients, passes) = project(grid, &far)?;
+        let (near, smoothed) = match how.near {
+            Near::Apart => (near, Vec::new()),
+            Near::Smoothed => (Vec::new(), near),
+        };
+        let (coefficients, passes) = project(grid, &Held { far: &far, near: &smoothed })?;
         let mut times = PassTimes::default();
         times.add(&passes, "prepare grid", start);
-        Ok(Self { how, coefficients, near, times })
+        Ok(Self { how, coefficients, near, smoothed: smoothed.len(), times })
     }
 
     /// Lights that must be met at each pixel.
     pub fn near(&self) -> &[AreaLight] {
         &self.near
+    }
+
+    /// Near lights that the grid holds smoothed; `None` where it holds none of them.
+    pub fn smoothed(&self) -> Option<usize> {
+        (self.how.near == Near::Smoothed).then_some(self.smoothed)
     }
 
     /// The time of each pass.

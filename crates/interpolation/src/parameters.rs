@@ -13,6 +13,15 @@ pub enum Bounds {
     Scene,
 }
 
+/// What becomes of lights within reach of the grid ([`Reach`](crate::Reach)).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Near {
+    /// Each is met at each pixel.
+    Apart,
+    /// The grid holds them, too, smoothed to what its spacing shows.
+    Smoothed,
+}
+
 /// The parameters by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Interpolation {
@@ -26,6 +35,8 @@ pub struct Interpolation {
     pub loops: Loops,
     /// In which pixels are read.
     pub order: Order,
+    /// Of lights near the grid.
+    pub near: Near,
 }
 
 const NONE: &str = "none";
@@ -126,11 +137,30 @@ impl Interpolation {
         },
     };
 
+    /// Lights near the grid.
+    pub const NEAR: ParameterInfo = ParameterInfo {
+        name: "near",
+        formerly: None,
+        introduced: Some("apart"),
+        help: "lights within two cells of the grid",
+        kind: ParameterKind::Choice {
+            default: "apart",
+            words: &[
+                ChoiceWord { word: "apart", help: "are met at each pixel" },
+                ChoiceWord {
+                    word: "smoothed",
+                    help: "are discs of at least half a cell's radius in the grid, of the same power",
+                },
+            ],
+        },
+    };
+
     /// `None` where every light is met at every pixel.
     pub fn new(parameters: &Parameters) -> Option<Self> {
         let scheme = parameters.choice(Self::SCHEME.name, &SCHEMES)?;
         let bounds = [("view", Bounds::View), ("scene", Bounds::Scene)];
         let loops = [("forward", Loops::Forward), ("reverse", Loops::Reverse)];
+        let near = [("apart", Near::Apart), ("smoothed", Near::Smoothed)];
         let order = [("plain", Order::Plain), ("sorted", Order::Sorted)];
         Some(Self {
             scheme,
@@ -138,6 +168,7 @@ impl Interpolation {
             bounds: parameters.choice(Self::BOUNDS.name, &bounds),
             loops: parameters.choice(Self::LOOPS.name, &loops),
             order: parameters.choice(Self::READING.name, &order),
+            near: parameters.choice(Self::NEAR.name, &near),
         })
     }
 

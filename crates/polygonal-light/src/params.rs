@@ -52,13 +52,33 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         },
     },
     Edges::PARAMETER,
-    Narrow::PARAMETER,
+    ParameterInfo {
+        name: "narrow",
+        formerly: None,
+        introduced: None,
+        help: "scenes with specular lobes that no affordable number of bands shows",
+        kind: ParameterKind::Choice {
+            default: "decline",
+            words: &[
+                ChoiceWord { word: "decline", help: "those of roughness below 0.3" },
+                ChoiceWord { word: "keep", help: "render them, with the error that they have" },
+                ChoiceWord {
+                    word: "ltc",
+                    help: "render those lobes by linearly transformed cosines",
+                },
+            ],
+        },
+    },
     Interpolation::SCHEME,
     Interpolation::GRID,
     Interpolation::BOUNDS,
     Interpolation::LOOPS,
     Interpolation::READING,
+    Interpolation::NEAR,
 ];
+
+const NARROW: [(&str, Narrow); 3] =
+    [("decline", Narrow::Decline), ("keep", Narrow::Keep), ("ltc", Narrow::Transformed)];
 
 /// All but `exact`.
 const SPHERES: [(&str, Approximation); 7] = [
@@ -109,7 +129,7 @@ impl Settings {
         Self {
             bands: parameters.count(BANDS) as usize,
             approximation: parameters.choice("approximation", &approximations),
-            narrow: Narrow::new(parameters),
+            narrow: parameters.choice("narrow", &NARROW),
         }
     }
 }
@@ -135,6 +155,8 @@ mod tests {
         for (word, approximation) in SPHERES {
             assert_eq!(set("approximation", word), Settings { approximation, ..plain });
         }
-        assert_eq!(set("narrow", "keep"), Settings { narrow: Narrow::Keep, ..plain });
+        for (word, narrow) in NARROW {
+            assert_eq!(set("narrow", word), Settings { narrow, ..plain });
+        }
     }
 }

@@ -8,7 +8,7 @@ use manylights_harmonics::polygon::PolygonProjection;
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_harmonics::zonal::TriangleForm;
 use manylights_interpolation::{
-    self as interpolation, Grid, GridCoefficients, Interpolation, Loops, ProjectionShader,
+    self as interpolation, Grid, GridCoefficients, Held, Interpolation, Loops, ProjectionShader,
     SourceShader,
 };
 use manylights_method::Parameters;
@@ -38,10 +38,10 @@ pub(crate) fn project_lights(
     grid: Grid<f32>,
     how: Interpolation,
     parameters: &Parameters,
-    lights: &[AreaLight],
+    held: &Held<'_>,
 ) -> Result<(GridCoefficients, Vec<PassTime>), Error> {
     let gradients = how.scheme.reads_gradients();
-    project(gpu, grid, &Settings::new(parameters), (gradients, how.loops), lights)
+    project(gpu, grid, &Settings::new(parameters), (gradients, how.loops), held.far)
 }
 
 /// The coefficients of triangles at the vertices of a grid, with gradients or without, and the time of each pass.

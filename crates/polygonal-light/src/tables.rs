@@ -2,7 +2,7 @@
 
 use manylights_area_lights::SceneTables;
 use manylights_gpu::Gpu;
-use manylights_interpolation::Interpolation;
+use manylights_interpolation::{Interpolation, Near};
 use manylights_method::{Error, Parameters};
 use manylights_reflectance::{Materials, Tables};
 use manylights_scene::Scene;
@@ -16,8 +16,8 @@ pub(crate) fn tables(
     parameters: &Parameters,
 ) -> Result<SceneTables, Error> {
     let settings = Settings::new(parameters);
-    if Interpolation::new(parameters).is_some() {
-        refuse_interpolated(&settings)?;
+    if let Some(how) = Interpolation::new(parameters) {
+        refuse_interpolated(&settings, how)?;
     }
     settings.narrow.check(scene)?;
     let (materials, receivers) = (Materials::of_scene(scene), Tables::new());
@@ -25,14 +25,16 @@ pub(crate) fn tables(
     Ok(SceneTables { on_gpu, count: receivers.count() })
 }
 
-/// What a grid holds are coefficients, which meet lobes on harmonics alone.
-fn refuse_interpolated(settings: &Settings) -> Result<(), Error> {
-    if settings.narrow != Narrow::Transformed {
-        return Ok(());
-    }
-    Err(Error::Declined(
+/// What a grid holds are coefficients, which meet lobes on harmonics alone; of near lights spheres alone are
+/// smoothed.
+fn refuse_interpolated(settings: &Settings, how: Interpolation) -> Result<(), Error> {
+    let reason = if settings.narrow == Narrow::Transformed {
         "interpolates coefficients against lobes on harmonics, with no ltc of narrow ones: --set \
          narrow=decline, or keep"
-            .into(),
-    ))
+    } else if how.near == Near::Smoothed {
+        "smooths no triangles near the grid: --set near=apart"
+    } else {
+        return Ok(());
+    };
+    Err(Error::Declined(reason.into()))
 }

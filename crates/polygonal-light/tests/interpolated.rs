@@ -101,8 +101,12 @@ fn pictures_are_those_of_f64() {
 
 #[test]
 fn what_a_grid_cannot_hold_is_declined() {
-    let texts = [("interpolation", "trilinear"), ("narrow", "ltc")];
-    let refused = render(&lit(), RESOLUTION, &texts, DIRECT).expect_err("declined");
-    let said = refused.to_string();
-    assert!(said.contains("narrow=decline"), "{said}");
+    for (name, word, mend) in
+        [("narrow", "ltc", "narrow=decline"), ("near", "smoothed", "near=apart")]
+    {
+        let texts = [("interpolation", "trilinear"), (name, word)];
+        let refused = render(&lit(), RESOLUTION, &texts, DIRECT).expect_err("declined");
+        let said = refused.to_string();
+        assert!(said.contains(mend), "{said}");
+    }
 }

@@ -83,13 +83,33 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
             ],
         },
     },
-    Narrow::PARAMETER,
+    ParameterInfo {
+        name: "narrow",
+        formerly: None,
+        introduced: None,
+        help: "scenes with specular lobes that no affordable number of bands shows",
+        kind: ParameterKind::Choice {
+            default: "decline",
+            words: &[
+                ChoiceWord { word: "decline", help: "those of roughness below 0.3" },
+                ChoiceWord { word: "keep", help: "render them, with the error that they have" },
+                ChoiceWord {
+                    word: "ltc",
+                    help: "render those lobes by linearly transformed cosines",
+                },
+            ],
+        },
+    },
     Interpolation::SCHEME,
     Interpolation::GRID,
     Interpolation::BOUNDS,
     Interpolation::LOOPS,
     Interpolation::READING,
+    Interpolation::NEAR,
 ];
+
+const NARROW: [(&str, Narrow); 3] =
+    [("decline", Narrow::Decline), ("keep", Narrow::Keep), ("ltc", Narrow::Transformed)];
 
 const PRODUCTS: [(&str, Product); 6] = [
     ("full", Product::Full),
@@ -170,7 +190,7 @@ impl Settings {
             ),
             extent: parameters
                 .choice("extent", &[("sphere", Extent::Sphere), ("disc", Extent::Disc)]),
-            narrow: Narrow::new(parameters),
+            narrow: parameters.choice("narrow", &NARROW),
         }
     }
 }
@@ -203,6 +223,8 @@ mod tests {
         let tabulated = Settings { coefficients: Coefficients::Tabulated, ..plain };
         assert_eq!(set("coefficients", "tabulated"), tabulated);
         assert_eq!(set("extent", "disc"), Settings { extent: Extent::Disc, ..plain });
-        assert_eq!(set("narrow", "keep"), Settings { narrow: Narrow::Keep, ..plain });
+        for (word, narrow) in NARROW {
+            assert_eq!(set("narrow", word), Settings { narrow, ..plain });
+        }
     }
 }

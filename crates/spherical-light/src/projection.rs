@@ -3,10 +3,9 @@
 use manylights_gpu::{Error, Gpu};
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_interpolation::{
-    Grid, GridCoefficients, Interpolation, Loops, ProjectionShader, SourceShader, project,
+    Grid, GridCoefficients, Held, Interpolation, Loops, ProjectionShader, SourceShader, project,
 };
 use manylights_method::{Parameters, PassTime};
-use manylights_scene::AreaLight;
 
 use crate::gather::CAPACITY;
 use crate::{Extent, Settings, SphereLight};
@@ -17,11 +16,20 @@ pub(crate) fn project_lights(
     grid: Grid<f32>,
     how: Interpolation,
     parameters: &Parameters,
-    lights: &[AreaLight],
+    held: &Held<'_>,
 ) -> Result<(GridCoefficients, Vec<PassTime>), Error> {
     let settings = Settings::new(parameters);
-    let shader = linked_projection(&settings, how.scheme.reads_gradients(), how.loops)?;
-    project(gpu, grid, &shader, &SphereLight::all(lights))
+    let gradients = how.scheme.reads_gradients();
+    let shader = linked_projection(&settings, gradients, how.loops)?;
+    let (coefficients, mut times) = project(gpu, grid, &shader, &SphereLight::all(held.far))?;
+    if !held.near.is_empty() {
+        let discs = Settings { extent: Extent::Disc, ..settings };
+        let shader = linked_projection(&discs, gradients, how.loops)?;
+        let near = SphereLight::all(held.near);
+        let smoothed: Vec<_> = near.iter().map(|light| light.smoothed(&grid)).collect();
+        times.extend(coefficients.add(gpu, &shader, &smoothed)?);
+    }
+    Ok((coefficients, times))
 }
 
 /// The projection of spheres, records of [`SphereLight`](crate::SphereLight), by the recurrence.

@@ -52,21 +52,38 @@ pub fn project<R: Pod>(
     records: &[R],
 ) -> Result<(GridCoefficients, Vec<PassTime>), Error> {
     let result = GridCoefficients::zero(gpu, grid, shader.bands, shader.gradients)?;
-    let vertices = grid.count() as u32;
-    let positions: Vec<[f32; 4]> = grid.positions().map(|[x, y, z]| [x, y, z, 1.0]).collect();
-    let positions = gpu.storage("vertices", &positions)?;
-    let told = gpu.uniform("grid", &Told { spacing: grid.spacing, vertices })?;
-    let batches = UniformBatches::new(gpu, "lights", records, shader.capacity, shader.capacity)?;
-    let resources = [
-        Resource::Buffer(&told),
-        Resource::Buffer(&positions),
-        Resource::Batches(&batches),
-        Resource::Buffer(&result.buffer),
-    ];
-    let pass = gpu.pass("project", &shader.compile(gpu)?, &resources)?;
-    let workgroups = [vertices.div_ceil(LANES), shader.lanes, 1];
-    let dispatches: Vec<_> =
-        (0..batches.counts().len()).map(|index| pass.over_batch(index, workgroups)).collect();
-    let times = gpu.run(&dispatches)?;
+    let times = result.add(gpu, shader, records)?;
     Ok((result, times))
+}
+
+impl GridCoefficients {
+    /// Adds those of further lights, and tells the time of each pass.
+    ///
+    /// # Errors
+    /// As [`project`].
+    pub fn add<R: Pod>(
+        &self,
+        gpu: &Gpu,
+        shader: &ProjectionShader,
+        records: &[R],
+    ) -> Result<Vec<PassTime>, Error> {
+        let grid = self.grid;
+        let vertices = grid.count() as u32;
+        let positions: Vec<[f32; 4]> = grid.positions().map(|[x, y, z]| [x, y, z, 1.0]).collect();
+        let positions = gpu.storage("vertices", &positions)?;
+        let told = gpu.uniform("grid", &Told { spacing: grid.spacing, vertices })?;
+        let batches =
+            UniformBatches::new(gpu, "lights", records, shader.capacity, shader.capacity)?;
+        let resources = [
+            Resource::Buffer(&told),
+            Resource::Buffer(&positions),
+            Resource::Batches(&batches),
+            Resource::Buffer(&self.buffer),
+        ];
+        let pass = gpu.pass("project", &shader.compile(gpu)?, &resources)?;
+        let workgroups = [vertices.div_ceil(LANES), shader.lanes, 1];
+        let dispatches: Vec<_> =
+            (0..batches.counts().len()).map(|index| pass.over_batch(index, workgroups)).collect();
+        gpu.run(&dispatches)
+    }
 }
