@@ -1,6 +1,8 @@
 //! Lights at the vertices of a grid, read at receivers: the path of methods that interpolate, on the adapter and
 //! in f64.
 
+pub mod fields;
+
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_interpolation::{
