@@ -36,14 +36,14 @@ fn main() {
          cells are not cubes. Given is the largest difference of the adapter's f32 from the f64 oracle that reads the same \
          grid, then the difference from the truth, every light at every receiver in f64: at most, and the root mean square over 300 \
          receivers all over the box. Jumps are the largest differences of pairs of receivers that a face between cells \
-         parts, 2e-6 of half a side apart, as the grid has them and as the truth has them. All are relative to the largest truth. \
+         parts, 2e-6 of half a side apart, as the grid has them and as the truth has them: slopes over that distance, unless there is a seam. All are relative to the largest truth. \
          \"Near ones apart\" is what the methods do: lights within two cells of the grid are met at each pixel. \"All in the grid\" \
          is what nobody gets, and shows why.\n\n\
          A grid of one vertex a side is refused: ``parameter `grid` = `1`: must be a whole number from 2 to 64``, exit \
          code 2.\n\n\
          {tables}\
          ## A sphere of 0.1 m moves through the grid\n\n\
-         160 positions along a line, from three halves of the box before it to three behind. A light that becomes near \
+         160 positions along a line, from three half-boxes before it to three behind. A light that becomes near \
          changes the picture by what interpolation was wrong before: beside the change of the truth in that step.\n\n\
          {path}\n\
          ## Orders\n\n\

@@ -10,7 +10,7 @@ use crate::measure::{Radiances, SCHEME_NAMES, largest_difference, parted};
 
 const STEPS: usize = 160;
 
-/// Positions in the grid's own halves: from four halves before it to four behind, off all vertices.
+/// Positions in the grid's own halves: from three before its faces to three behind, off all vertices.
 fn center(step: usize) -> Vec3 {
     let along = 8.0 * step as f32 / (STEPS - 1) as f32 - 4.0;
     HALF * Vec3::new(along, 0.13 + 0.05 * along, -0.21)
