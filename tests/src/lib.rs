@@ -1,5 +1,7 @@
 //! What the tests of this package share: pictures by any method, and their references.
 
+pub mod gridded;
+
 use std::sync::LazyLock;
 
 use glam::Vec3;
