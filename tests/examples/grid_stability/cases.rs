@@ -101,108 +101,101 @@ pub(crate) fn sphere(center: Vec3, radius: f32) -> AreaLight {
     AreaLight::Sphere { center, radius, radiance: Vec3::ONE }
 }
 
-/// Each reaches into the last cells of its side, or stands outside two of them.
-fn around(distance: f32, radius: f32) -> Vec<AreaLight> {
-    let places = (0..12).map(|i| distance * HALF * Vec3::from(fields::noise(i)).normalize());
-    places.map(|center| sphere(center, radius)).collect()
+/// In the outer cells of the box.
+fn around() -> Vec<AreaLight> {
+    let places = (0..12).map(|i| 0.8 * HALF * Vec3::from(fields::noise(i)).normalize());
+    places.map(|center| sphere(center, 0.05)).collect()
 }
 
 pub(crate) fn cases() -> Vec<Case> {
-    let case = Case::new;
+    let mut cases =
+        vec![Case::new("twelve spheres half a side outside", spheres(), fields::spheres(), "")];
+    cases.extend(in_the_grid());
+    cases.extend(planes());
+    cases.extend(few_and_far());
+    cases.extend(sizes());
+    cases
+}
+
+fn in_the_grid() -> Vec<Case> {
     let inside = "The lights are met at each pixel, so that nothing is left to the grid. In it they would be finite \
                   and wrong: no polynomial follows a light within a cell.";
-    let smooth = || fields::spheres();
-    let cut =
-        "The light has a kink in its plane: Hermite is no better than its second-order form there.";
+    let at_vertex = "The light is met at each pixel. In the grid the vertex would be a rounding from the centre, where \
+                     the direction to it turns by one over that distance: gradients are 1e7 of the light, of which \
+                     f32 and f64 agree to 1e-6.";
+    let around_cell = "The light is met at each pixel. In the grid a vertex a little outside of the sphere would have a \
+                       steep gradient, since the cosine of the half-angle is the root of what is known of the distance.";
+    let corners = [Vec3::new(-3.0, 0.1, -2.0), Vec3::new(3.0, -0.1, 0.1), Vec3::new(0.2, 0.3, 3.0)];
+    let triangle = AreaLight::Triangle { corners, radiance: Vec3::ONE, two_sided: true };
+    let one = |name, center, radius, remark| {
+        Case::new(name, spheres(), vec![sphere(center, radius)], remark)
+    };
     vec![
-        case("twelve spheres half a side outside", spheres(), smooth(), ""),
-        case(
-            "a sphere of 0.05 m at a vertex",
-            spheres(),
-            vec![sphere(0.5 * HALF, 0.05)],
-            at_vertex,
-        ),
-        case("a sphere of 0.05 m in a cell", spheres(), vec![sphere(0.31 * HALF, 0.05)], inside),
-        case(
-            "a cell wholly inside a sphere of 1 m",
-            spheres(),
-            vec![sphere(0.3 * HALF, 1.0)],
-            around_cell,
-        ),
-        case("all lights near: twelve of 0.05 m in the box", spheres(), around(0.8, 0.05), inside),
-        case("no light at all", spheres(), vec![], "Nothing is read, and nothing is there."),
-        case(
-            "two-sided triangles whose planes cut cells, exact",
-            exact(),
-            fields::triangles(false, true),
-            cut,
-        ),
-        case(
-            "one-sided triangles whose planes cut cells, exact",
-            exact(),
-            fields::triangles(false, false),
-            cut,
-        ),
-        case(
-            "one-sided triangles whose planes cut cells, `main`",
-            triangles(Approximation::Sphere(TriangleForm::Main)),
-            fields::triangles(false, false),
-            cut,
-        ),
-        case(
-            "a triangle through the box, exact",
-            exact(),
-            vec![AreaLight::Triangle {
-                corners: [
-                    Vec3::new(-3.0, 0.1, -2.0),
-                    Vec3::new(3.0, -0.1, 0.1),
-                    Vec3::new(0.2, 0.3, 3.0),
-                ],
-                radiance: Vec3::ONE,
-                two_sided: true,
-            }],
-            inside,
-        ),
+        one("a sphere of 0.05 m at a vertex", 0.5 * HALF, 0.05, at_vertex),
+        one("a sphere of 0.05 m in a cell", 0.31 * HALF, 0.05, inside),
+        one("a cell wholly inside a sphere of 1 m", 0.3 * HALF, 1.0, around_cell),
+        Case::new("a triangle through the box, exact", exact(), vec![triangle], inside),
+        Case::new("all lights near: twelve of 0.05 m in the box", spheres(), around(), inside),
+    ]
+}
+
+fn planes() -> Vec<Case> {
+    let cut =
+        "The light has a kink in its plane: `hermite` is no better than `hermite-flat` there.";
+    let main = triangles(Approximation::Sphere(TriangleForm::Main));
+    let case =
+        |name, source, two_sided| Case::new(name, source, fields::triangles(false, two_sided), cut);
+    vec![
+        case("two-sided triangles whose planes cut cells, exact", exact(), true),
+        case("one-sided triangles whose planes cut cells, exact", exact(), false),
+        case("one-sided triangles whose planes cut cells, `main`", main, false),
+    ]
+}
+
+/// Few vertices or lights, and what is far from the grid.
+fn few_and_far() -> Vec<Case> {
+    let case = |name, remark| Case::new(name, spheres(), fields::spheres(), remark);
+    vec![
         Case {
-            vertices: 2,
-            ..case("two vertices a side", spheres(), smooth(), "A single cell has no face within.")
+            lights: vec![],
+            ..case("no light at all", "Nothing is read, and nothing is there.")
         },
+        Case { vertices: 2, ..case("two vertices a side", "A single cell has no face within.") },
         Case {
             spread: 1.5,
             ..case(
                 "receivers up to a quarter of a side outside",
-                spheres(),
-                smooth(),
                 "The nearest point of the grid stands for what is outside: the light of its face.",
             )
         },
-        case(
-            "spheres of 1e-6 m, half a side outside",
-            spheres(),
-            smooth().into_iter().map(|light| resized(light, 1e-6)).collect(),
-            "",
-        ),
-        case(
-            "a sphere of 1e6 m, 5 m from the middle",
-            spheres(),
-            vec![sphere(Vec3::new(1_000_005.0, 0.0, 0.0), 1e6)],
-            "In f32 the distance to its centre is known to 0.06 m of the 5 m to its surface: the cosine of the \
-             half-angle, 3e-3, to 2e-5.",
-        ),
         Case {
             vertices: 8,
             half: Vec3::new(1.0, 0.02, 0.7),
+            lights: vec![sphere(Vec3::new(0.1, 0.05, 0.05), 0.01)],
             ..case(
                 "a flat box, 0.04 m high, a sphere of 0.01 m 0.03 m above it",
-                spheres(),
-                vec![sphere(Vec3::new(0.1, 0.05, 0.05), 0.01)],
                 "Cells are 0.29 × 0.006 × 0.2 m. The light is outside two of them along y and taken for far, but a \
                  tenth of a cell away along x: all schemes fail alike, as on floors that are seen to the horizon. \
                  Such a grid should have fewer vertices along y and more along x.",
             )
         },
-        Case { unit: 1e-3, ..case("the same, scene of 1e-3 m", spheres(), smooth(), "") },
-        Case { unit: 1e5, ..case("the same, scene of 1e5 m", spheres(), smooth(), "") },
+    ]
+}
+
+fn sizes() -> Vec<Case> {
+    let case = |name, lights, remark| Case::new(name, spheres(), lights, remark);
+    let tiny = fields::spheres().into_iter().map(|light| resized(light, 1e-6)).collect();
+    let huge = vec![sphere(Vec3::new(1_000_005.0, 0.0, 0.0), 1e6)];
+    let known = "In f32 the distance to its centre is known to 0.06 m of the 5 m to its surface: the cosine of the \
+                 half-angle, 3e-3, to 2e-5.";
+    vec![
+        case("spheres of 1e-6 m, half a side outside", tiny, ""),
+        case("a sphere of 1e6 m, 5 m from the middle", huge, known),
+        Case {
+            unit: 1e-3,
+            ..case("the same as the first, scene of 1e-3 m", fields::spheres(), "")
+        },
+        Case { unit: 1e5, ..case("the same as the first, scene of 1e5 m", fields::spheres(), "") },
     ]
 }
 

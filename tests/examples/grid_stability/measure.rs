@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use glam::DVec3;
-use manylights_interpolation::{Reach, Scheme};
+use manylights_interpolation::{Grid, Reach, Scheme};
 use manylights_scene::AreaLight;
-use manylights_tests::gridded::{Receivers, SCHEMES, Source};
+use manylights_tests::gridded::{Receivers, SCHEMES, Source, fields};
 
 use crate::cases::Case;
 
@@ -118,15 +118,13 @@ pub(crate) fn table(case: &Case) -> (String, bool) {
 }
 
 /// Errors of a source at 5³, 9³ and 17³ vertices of a cube, and the order between the last two.
-pub(crate) fn orders(fields: &[(&str, Source, Vec<AreaLight>)]) -> String {
-    use manylights_interpolation::Grid;
-    use manylights_tests::gridded::fields as smooth;
+pub(crate) fn orders(of: &[(&str, Source, Vec<AreaLight>)]) -> String {
     let mut text =
         "| lights | scheme | 5³ | 9³ | 17³ | order |\n|---|---|---|---|---|---|\n".to_owned();
     let surfaces = (0..1600)
-        .map(|i| smooth::receiver(smooth::noise(i).into(), smooth::noise(7000 + i).into()));
-    let receivers = Receivers { surfaces: surfaces.collect(), camera: smooth::CAMERA };
-    for (field, source, lights) in fields {
+        .map(|i| fields::receiver(fields::noise(i).into(), fields::noise(7000 + i).into()));
+    let receivers = Receivers { surfaces: surfaces.collect(), camera: fields::CAMERA };
+    for (field, source, lights) in of {
         let truth = source.truth(lights, &receivers);
         let size = root_mean_square(&truth, &vec![DVec3::ZERO; truth.len()]);
         for (scheme, name) in SCHEMES.into_iter().zip(SCHEME_NAMES) {
