@@ -5,14 +5,18 @@
 //! - with gradients at ((vertex n² + i) 3 + channel), the value and its three derivatives by a cell, ∂x h_x, ∂y
 //!   h_y, ∂z h_z;
 //! - without at vertex n² + i, red, green, blue and 0.
+//!
+//! [`pack`] makes a third of the bytes of them.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 #![forbid(unsafe_code)]
 
+mod corner_wgsl;
 mod extent;
 mod grid;
 mod light_grid;
 mod near;
 pub mod oracle;
+mod packing;
 mod parameters;
 mod projection;
 mod reading;
@@ -28,11 +32,12 @@ mod view;
 pub use grid::{Grid, Place};
 pub use light_grid::{LightGrid, Lit};
 pub use near::Reach;
+pub use packing::pack;
 pub use parameters::{Bounds, Interpolation};
 pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};
 pub use reading::Reading;
 pub use run::{COUNTERS, GridPart, InterpolatedRun};
 pub use scheme::{CORNERS, Scheme, Weights};
-pub use settings::{Order, Settings};
+pub use settings::{Order, Settings, Storage};
 pub use shader::Shader;
 pub use view::Pixels;

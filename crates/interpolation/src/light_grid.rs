@@ -7,11 +7,15 @@ use manylights_method::PassTimes;
 use manylights_reflectance::ReceiverKinds;
 use manylights_scene::{AreaLight, Scene};
 
-use crate::{Grid, GridCoefficients, GridPart, Interpolation, Pixels, Reach, Reading, Settings};
+use crate::{
+    Grid, GridCoefficients, GridPart, Interpolation, Pixels, Reach, Reading, Settings, Storage,
+    pack,
+};
 
 /// Coefficients of the lights that are far from the vertices of a grid, on the adapter, and the others.
 pub struct LightGrid {
     how: Interpolation,
+    /// As `how` stores them.
     coefficients: GridCoefficients,
     near: Vec<AreaLight>,
     times: PassTimes,
@@ -44,7 +48,12 @@ impl LightGrid {
         let reach = Reach::new(&grid);
         let (near, far): (Vec<_>, Vec<_>) =
             lit.lights.iter().copied().partition(|light| reach.meets(light));
-        let (coefficients, passes) = project(grid, &far)?;
+        let (mut coefficients, mut passes) = project(grid, &far)?;
+        if how.storage == Storage::Packed {
+            let (packed, pass) = pack(lit.gpu, &coefficients)?;
+            coefficients.buffer = packed;
+            passes.extend(pass);
+        }
         let mut times = PassTimes::default();
         times.add(&passes, "prepare grid", start);
         Ok(Self { how, coefficients, near, times })
@@ -77,8 +86,8 @@ impl LightGrid {
         lights: usize,
     ) -> Result<GridPart, Error> {
         let GridCoefficients { grid, bands, ref buffer, .. } = self.coefficients;
-        let Interpolation { scheme, order, .. } = self.how;
-        let settings = Settings { grid, scheme, bands, kinds, order };
+        let Interpolation { scheme, order, storage, .. } = self.how;
+        let settings = Settings { grid, scheme, bands, kinds, order, storage };
         let reading = Reading::new(gpu, &settings, buffer, pixels)?;
         Ok(GridPart::new(reading, lights, self.near.len()))
     }

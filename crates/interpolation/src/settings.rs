@@ -21,6 +21,18 @@ pub struct Settings {
     pub kinds: ReceiverKinds,
     /// In which pixels are read.
     pub order: Order,
+    /// Of the coefficients that are read.
+    pub storage: Storage,
+}
+
+/// How numbers at the vertices are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Single precision.
+    F32,
+    /// Values in half precision over a scale, derivatives in 8 bits ([`pack`](crate::pack)): a third of the bytes with
+    /// gradients, half without.
+    Packed,
 }
 
 /// In which pixels are read.
@@ -34,7 +46,7 @@ pub enum Order {
 }
 
 impl Settings {
-    /// Of a vertex, each a `vec4f`, in the frame of the world. With gradients three for each of bands²
+    /// Of a vertex in single precision, each a `vec4f`, in the frame of the world. With gradients three for each of bands²
     /// coefficients, one a channel: the value, and its three derivatives times the grid's spacing. Without them
     /// one, of red, green, blue and nothing. Vertices are in the order of the grid.
     pub fn vectors(&self) -> usize {
@@ -42,14 +54,29 @@ impl Settings {
         each * count(self.bands)
     }
 
-    /// Whether pixels are sorted: up to 13 bands with gradients, whatever their number without.
+    /// Of a vertex as [`Settings::storage`] keeps it, 16 bytes each.
+    pub fn stored_vectors(&self) -> usize {
+        let size = count(self.bands);
+        match (self.storage, self.scheme.reads_gradients()) {
+            (Storage::F32, _) => self.vectors(),
+            (Storage::Packed, true) => self.storage_header() + size,
+            (Storage::Packed, false) => self.storage_header() + size.div_ceil(2),
+        }
+    }
+
+    /// Of those, the ones with scales where they are packed: of each channel's values, and of each band's gradients.
+    pub(crate) fn storage_header(&self) -> usize {
+        if self.scheme.reads_gradients() { 1 + self.bands.div_ceil(4) } else { 1 }
+    }
+
+    /// Whether pixels are sorted: in single precision up to 13 bands with gradients, else whatever their number.
     pub fn is_sorted(&self) -> bool {
         self.order == Order::Sorted && self.block_bytes() <= UNIFORM_BYTES
     }
 
     /// Of a cell with its eight corners, as uniform memory holds it.
     pub(crate) fn block_bytes(&self) -> usize {
-        16 * (1 + 8 * self.vectors())
+        16 * (1 + 8 * self.stored_vectors())
     }
 
     /// Of those that are sorted. The more, the more often a number that is loaded is used, and the longer the

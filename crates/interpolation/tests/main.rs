@@ -2,6 +2,7 @@
 
 mod common;
 mod grid;
+mod packing;
 mod reading;
 mod schemes;
 

@@ -74,6 +74,7 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     Interpolation::BOUNDS,
     Interpolation::LOOPS,
     Interpolation::READING,
+    Interpolation::STORAGE,
 ];
 
 const NARROW: [(&str, Narrow); 3] =

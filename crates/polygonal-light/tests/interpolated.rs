@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
-use manylights_interpolation::{self as interpolation, Grid, Order, Reach, Scheme};
+use manylights_interpolation::{self as interpolation, Grid, Order, Reach, Scheme, Storage};
 use manylights_metrics::RadianceImage;
 use manylights_polygonal_light::{Edges, Settings, TriangleForm, oracle};
 use manylights_reflectance::Materials;
@@ -40,7 +40,14 @@ fn error(
     });
     let bands = settings.bands;
     let kinds = Materials::new(surfaces.iter().map(|surface| surface.brdf())).kinds();
-    let read = interpolation::Settings { grid, scheme, bands, kinds, order: Order::Plain };
+    let read = interpolation::Settings {
+        grid,
+        scheme,
+        bands,
+        kinds,
+        order: Order::Plain,
+        storage: Storage::F32,
+    };
     let all = oracle::coefficients(&grid, &far, settings);
     let stored: Vec<[f32; 4]> = match scheme.reads_gradients() {
         true => all.as_flattened().iter().map(|parts| parts.map(|value| value as f32)).collect(),

@@ -105,6 +105,7 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     Interpolation::BOUNDS,
     Interpolation::LOOPS,
     Interpolation::READING,
+    Interpolation::STORAGE,
 ];
 
 const NARROW: [(&str, Narrow); 3] =
