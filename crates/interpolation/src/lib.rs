@@ -16,6 +16,7 @@ mod grid;
 mod light_grid;
 mod near;
 pub mod oracle;
+mod packed_layout;
 mod packing;
 mod parameters;
 mod projection;

@@ -4,6 +4,7 @@ use manylights_gpu::{Binding, Buffer, Error, Gpu, PassTime, Resource, link};
 use manylights_harmonics::count;
 
 use crate::GridCoefficients;
+use crate::packed_layout::PackedLayout;
 
 /// Lanes of a workgroup, a vertex each.
 const LANES: u32 = 64;
@@ -23,8 +24,7 @@ const LANES: u32 = 64;
 pub fn pack(gpu: &Gpu, coefficients: &GridCoefficients) -> Result<(Buffer, Vec<PassTime>), Error> {
     let GridCoefficients { ref grid, bands, gradients, ref buffer } = *coefficients;
     let size = count(bands);
-    let header = if gradients { 1 + bands.div_ceil(4) } else { 1 };
-    let vectors = header + if gradients { size } else { size.div_ceil(2) };
+    let PackedLayout { header, vectors } = PackedLayout::new(bands, gradients);
     let layout = format!(
         "const LANES = {LANES}u;\nconst BANDS = {bands}u;\nconst COUNT = {size}u;\n\
          const HEADER = {header}u;\nconst VECTORS = {vectors}u;\n"

@@ -3,6 +3,7 @@
 use manylights_harmonics::count;
 use manylights_reflectance::ReceiverKinds;
 
+use crate::packed_layout::PackedLayout;
 use crate::{Grid, Scheme};
 
 /// Guaranteed bytes of a uniform binding.
@@ -56,17 +57,14 @@ impl Settings {
 
     /// Of a vertex as [`Settings::storage`] keeps it, 16 bytes each.
     pub fn stored_vectors(&self) -> usize {
-        let size = count(self.bands);
-        match (self.storage, self.scheme.reads_gradients()) {
-            (Storage::F32, _) => self.vectors(),
-            (Storage::Packed, true) => self.storage_header() + size,
-            (Storage::Packed, false) => self.storage_header() + size.div_ceil(2),
+        match self.storage {
+            Storage::F32 => self.vectors(),
+            Storage::Packed => self.packed().vectors,
         }
     }
 
-    /// Of those, the ones with scales where they are packed: of each channel's values, and of each band's gradients.
-    pub(crate) fn storage_header(&self) -> usize {
-        if self.scheme.reads_gradients() { 1 + self.bands.div_ceil(4) } else { 1 }
+    pub(crate) fn packed(&self) -> PackedLayout {
+        PackedLayout::new(self.bands, self.scheme.reads_gradients())
     }
 
     /// Whether pixels are sorted: in single precision up to 13 bands with gradients, else whatever their number.

@@ -106,6 +106,20 @@ fn pictures_are_those_of_f64() {
     }
 }
 
+/// Nearly the same pictures, and not from what f32 keeps.
+#[test]
+fn pictures_of_packed_coefficients_are_near() {
+    let scene = lit();
+    for (word, scheme) in SCHEMES {
+        let texts = [("bands", "4"), ("interpolation", word), ("grid", "4"), ("storage", "packed")];
+        let picture = render(&scene, RESOLUTION, &texts, DIRECT).expect("a picture");
+        let settings = Settings { bands: 4, ..exact(Edges::Shared) };
+        let error = error(&scene, &picture, 4, scheme, &settings);
+        println!("{word}: {error:.1e}");
+        assert!((1e-5..2e-3).contains(&error), "{word}: {error:e}");
+    }
+}
+
 #[test]
 fn what_a_grid_cannot_hold_is_declined() {
     let texts = [("interpolation", "trilinear"), ("narrow", "ltc")];

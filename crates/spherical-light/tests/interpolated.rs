@@ -107,6 +107,28 @@ fn pictures_are_those_of_f64() {
     }
 }
 
+/// Nearly the same pictures, and not from what f32 keeps.
+#[test]
+fn pictures_of_packed_coefficients_are_near() {
+    let scene = lit(false);
+    for (word, scheme) in SCHEMES {
+        for reading in ["plain", "sorted"] {
+            let texts = [
+                ("bands", "4"),
+                ("interpolation", word),
+                ("grid", "4"),
+                ("reading", reading),
+                ("storage", "packed"),
+            ];
+            let picture = render(&scene, RESOLUTION, &texts, DIRECT).expect("a picture");
+            let settings = Settings { bands: 4, ..SETTINGS };
+            let error = error(&scene, &picture, 4, scheme, &settings);
+            println!("{word}, {reading}: {error:.1e}");
+            assert!((1e-5..2e-3).contains(&error), "{word}, {reading}: {error:e}");
+        }
+    }
+}
+
 fn parameters(settings: &[(&'static str, &'static str)]) -> Parameters {
     let infos = AreaLights(SphericalLights).parameters();
     Parameters::new(infos, settings.iter().copied()).expect("in range")

@@ -2,16 +2,15 @@
 
 use manylights_harmonics::count;
 
+use crate::packed_layout::PackedLayout;
+
 /// Of vertices that [`pack`](crate::pack) made, as words, the numbers that reading finds there, laid out as those that
 /// were packed.
 pub fn unpacked(packed: &[[u32; 4]], bands: usize, gradients: bool) -> Vec<[f32; 4]> {
     let size = count(bands);
-    let (header, vectors) = match gradients {
-        true => (1 + bands.div_ceil(4), size),
-        false => (1, size.div_ceil(2)),
-    };
+    let PackedLayout { header, vectors } = PackedLayout::new(bands, gradients);
     let mut numbers = Vec::new();
-    for vertex in packed.chunks_exact(header + vectors) {
+    for vertex in packed.chunks_exact(vectors) {
         let (head, coefficients) = vertex.split_at(header);
         let scales = head[0].map(f32::from_bits);
         for i in 0..size {
