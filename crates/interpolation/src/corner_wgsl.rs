@@ -48,8 +48,9 @@ pub(crate) fn corner(settings: &Settings, (source, pixels): (&str, usize)) -> St
         }
     }
     let kind = if gradients { "vec4f" } else { "f32" };
+    let bytes = if gradients && stored.is_packed() { SIGNED_BYTES } else { "" };
     format!(
-        "import package::bindings::{variable};\n{SIGNED_BYTES}\n\
+        "import package::bindings::{variable};\n{bytes}\n\
          fn corner_radiance(\n{}    place: u32,\n{}) -> array<vec3f, {pixels}> {{\n\
          {body}    return array<vec3f, {pixels}>(\n{}    );\n}}\n",
         each(&|p| format!("    lobe{p}: array<{element}, {size}>,\n")),
