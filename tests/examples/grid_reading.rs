@@ -1,26 +1,34 @@
 //! Reading a grid of coefficients, pixel by pixel and cell by cell, at 640 × 360 pixels of a bent surface in 8³
-//! vertices. A row each: best of nine, both orders in turn, in milliseconds of wall clock with all that sorting
-//! takes, and of all processors, where Linux tells.
+//! vertices. A row each: best of nine, all ways in turn, in milliseconds of wall clock with all that sorting
+//! takes, and of all processors, where Linux tells; the ratio and the share of the adapter's peak are of the latter.
+//! Errors are relative to plain reading in single precision.
 
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
-use manylights_gpu::{Gpu, SurfaceRecord};
-use manylights_interpolation::{Grid, Order, Pixels, Reading, Scheme, Settings};
-use manylights_reflectance::{Damping, Form, Materials, Tables};
+use manylights_gpu::{Gpu, PassTime, SurfaceRecord};
+use manylights_harmonics::count;
+use manylights_interpolation::{
+    Grid, GridCoefficients, Order, Pixels, Reading, Scheme, Settings, Storage, pack,
+};
+use manylights_reflectance::{Damping, Form, Materials, Tables, diffuse};
 use manylights_scene::{Brdf, Lobe};
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 360;
+const PIXELS: u32 = WIDTH * HEIGHT;
 const ROUNDS: u32 = 9;
+
+/// Operations per second of a processor in single precision, measured (`results/throughput/area-light-products.md`).
+const PEAK: f64 = 80e9;
 
 fn main() {
     let gpu = Gpu::new(None).expect("an adapter");
     println!("{}, {}", gpu.report().name, gpu.report().driver_info);
     println!(
-        "| receivers | bands | scheme | order | first s | ms | of processors | ratio | passes ms |"
+        "| receivers | bands | scheme | storage | order | kB | first s | ms | of processors | ratio | % of peak | error | passes ms |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     let lambert = Brdf::lambert(Vec3::new(0.7, 0.5, 0.3));
     let (f0, lobe) = (Vec3::splat(0.04), Lobe::Schlick { f90: 1.0 });
     let glossy = Brdf { f0, lobe, alpha: 0.25, ..lambert };
@@ -33,14 +41,29 @@ fn main() {
     }
 }
 
+/// One way of reading a grid, and how it went.
+struct Measured {
+    order: Order,
+    storage: Storage,
+    bytes: u64,
+    reading: Reading,
+    radiance: Vec<[f32; 4]>,
+    first: f64,
+    best: f64,
+    of_processors: f64,
+    passes: String,
+}
+
 fn compare(gpu: &Gpu, (name, brdf): (&str, Brdf), bands: usize, scheme: Scheme) {
     let materials = Materials::new([brdf].into_iter());
     let grid = Grid::over([[-1.0; 3], [1.0; 3]], [8; 3]);
     let kinds = materials.kinds();
-    let settings = Settings { grid, scheme, bands, kinds, order: Order::Plain };
-    let numbers = settings.vectors() * grid.count();
-    let light: Vec<_> = (0..numbers).map(|i| [0, 1, 2, 3].map(|k| noise(4 * i + k))).collect();
-    let coefficients = gpu.storage("coefficients", &light).expect("it fits");
+    let (order, storage) = (Order::Plain, Storage::F32);
+    let settings = Settings { grid, scheme, bands, kinds, order, storage };
+    let gradients = scheme.reads_gradients();
+    let buffer = gpu.storage("coefficients", &light(&settings)).expect("it fits");
+    let single = GridCoefficients { grid, bands, gradients, buffer };
+    let packed = pack(gpu, &single).expect("a run").0;
     let surfaces = gpu.storage("surfaces", &surfaces(brdf)).expect("it fits");
     let mut tables = Vec::new();
     if kinds.specular {
@@ -48,45 +71,91 @@ fn compare(gpu: &Gpu, (name, brdf): (&str, Brdf), bands: usize, scheme: Scheme) 
         tables.push(gpu.storage("shapes", &materials.shape_records()).expect("it fits"));
         tables.push(gpu.storage("lobes", &lobes).expect("it fits"));
     }
-    let results = gpu.zeroed("results", 16 * u64::from(WIDTH * HEIGHT)).expect("it fits");
-    let pixels = Pixels {
-        surfaces: &surfaces,
-        count: WIDTH * HEIGHT,
-        camera: Vec3::new(0.0, 0.0, 7.0),
-        tables: &tables,
-        results: &results,
-    };
-    let mut readings = [Order::Plain, Order::Sorted].map(|order| {
+    let measured = |order, storage| {
+        let settings = Settings { order, storage, ..settings };
+        let coefficients = if storage == Storage::F32 { &single.buffer } else { &packed };
+        let results = gpu.zeroed("results", 16 * u64::from(PIXELS)).expect("it fits");
+        let (camera, surfaces) = (Vec3::new(0.0, 0.0, 7.0), &surfaces);
+        let (tables, results) = (&tables[..], &results);
+        let pixels = Pixels { surfaces, count: PIXELS, camera, tables, results };
         let start = Instant::now();
-        let settings = Settings { order, ..settings };
-        let mut reading = Reading::new(gpu, &settings, &coefficients, &pixels).expect("kernels");
+        let mut reading = Reading::new(gpu, &settings, coefficients, &pixels).expect("kernels");
         reading.add().expect("a run");
-        (order, reading, start.elapsed().as_secs_f64(), f64::INFINITY, 0.0, String::new())
-    });
-    for _ in 0..ROUNDS {
-        for (_, reading, _, best, busy, passes) in &mut readings {
-            let (start, before) = (Instant::now(), of_processors());
-            let times = reading.add().expect("a run");
-            *busy += (of_processors() - before) / f64::from(ROUNDS);
-            let seconds = start.elapsed().as_secs_f64();
-            if seconds < *best {
-                *best = seconds;
-                let pass = |time: &manylights_gpu::PassTime| {
-                    format!("{} {:.1}", time.pass, 1e3 * time.seconds)
-                };
-                *passes = times.iter().map(pass).collect::<Vec<_>>().join(", ");
-            }
+        Measured {
+            order,
+            storage,
+            bytes: (16 * settings.stored_vectors() * grid.count()) as u64,
+            reading,
+            first: start.elapsed().as_secs_f64(),
+            radiance: gpu.read(results).expect("radiance"),
+            best: f64::INFINITY,
+            of_processors: 0.0,
+            passes: String::new(),
         }
+    };
+    let mut ways = Vec::new();
+    for storage in [Storage::F32, Storage::Packed] {
+        ways.extend([Order::Plain, Order::Sorted].map(|order| measured(order, storage)));
     }
-    let plain = readings[0].4;
-    for (order, _, first, best, busy, passes) in &readings {
+    for _ in 0..ROUNDS {
+        ways.iter_mut().for_each(read_again);
+    }
+    let operations = operations(&settings);
+    for way in &ways {
+        let Measured { order, storage, bytes, first, best, of_processors, ref passes, .. } = *way;
         println!(
-            "| {name} | {bands} | {scheme:?} | {order:?} | {first:.1} | {:.1} | {:.0} | {:.1} | {passes} |",
+            "| {name} | {bands} | {scheme:?} | {storage:?} | {order:?} | {} | {first:.1} | {:.1} | {:.0} | {:.1} | {:.0} | {:.0e} | {passes} |",
+            bytes / 1000,
             1e3 * best,
-            1e3 * busy,
-            plain / busy
+            1e3 * of_processors,
+            ways[0].of_processors / of_processors,
+            100.0 * operations / (PEAK * of_processors),
+            difference(&way.radiance, &ways[0].radiance),
         );
     }
+}
+
+fn read_again(way: &mut Measured) {
+    let (start, before) = (Instant::now(), of_processors());
+    let times = way.reading.add().expect("a run");
+    way.of_processors += (of_processors() - before) / f64::from(ROUNDS);
+    let seconds = start.elapsed().as_secs_f64();
+    if seconds < way.best {
+        way.best = seconds;
+        let pass = |time: &PassTime| format!("{} {:.1}", time.pass, 1e3 * time.seconds);
+        way.passes = times.iter().map(pass).collect::<Vec<_>>().join(", ");
+    }
+}
+
+/// Of all pixels' lobes with all corners, two for a number that is multiplied and added.
+fn operations(settings: &Settings) -> f64 {
+    let lambertian = diffuse::lobes(settings.bands, Damping::None);
+    let is_used = |i: &usize| settings.kinds.specular || lambertian[i.isqrt()][0] != 0.0;
+    let coefficients = (0..count(settings.bands)).filter(is_used).count();
+    let numbers = if settings.scheme.reads_gradients() { 4 } else { 1 };
+    (2 * 8 * coefficients * 3 * numbers) as f64 * f64::from(PIXELS)
+}
+
+/// Over the norm of what it is compared with.
+fn difference(radiance: &[[f32; 4]], truth: &[[f32; 4]]) -> f64 {
+    let (radiance, truth) = (radiance.as_flattened(), truth.as_flattened());
+    let squares = |values: &mut dyn Iterator<Item = f32>| -> f64 {
+        values.map(|value| f64::from(value).powi(2)).sum()
+    };
+    let error = squares(&mut radiance.iter().zip(truth).map(|(a, b)| a - b));
+    (error / squares(&mut truth.iter().copied())).sqrt()
+}
+
+/// As lights have them: the higher the band, the less is in it; derivatives a tenth of values.
+fn light(settings: &Settings) -> Vec<[f32; 4]> {
+    let (vectors, gradients) = (settings.vectors(), settings.scheme.reads_gradients());
+    let vector = |k: usize| {
+        let i = (k % vectors) / if gradients { 3 } else { 1 };
+        let parts = [0, 1, 2, 3].map(|j| noise(4 * k + j) / (1.0 + i.isqrt() as f32));
+        let [value, x, y, z] = if i == 0 { parts.map(|part| part + 3.0) } else { parts };
+        if gradients { [value, 0.1 * x, 0.1 * y, 0.1 * z] } else { [value, x, y, 0.0] }
+    };
+    (0..vectors * settings.grid.count()).map(vector).collect()
 }
 
 fn surfaces(brdf: Brdf) -> Vec<SurfaceRecord> {
@@ -97,7 +166,7 @@ fn surfaces(brdf: Brdf) -> Vec<SurfaceRecord> {
         let normal = Quat::from_rotation_x(0.5 * y) * Quat::from_rotation_y(x) * Vec3::Z;
         SurfaceRecord::new(Vec3::new(x, y, z), normal, brdf)
     };
-    (0..WIDTH * HEIGHT).map(surface).collect()
+    (0..PIXELS).map(surface).collect()
 }
 
 fn noise(i: usize) -> f32 {

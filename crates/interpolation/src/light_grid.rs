@@ -7,11 +7,14 @@ use manylights_method::PassTimes;
 use manylights_reflectance::ReceiverKinds;
 use manylights_scene::{AreaLight, Scene};
 
-use crate::{Grid, GridCoefficients, Interpolation, Near, Pixels, Reach, Reading, Settings};
+use crate::{
+    Grid, GridCoefficients, Interpolation, Near, Pixels, Reach, Reading, Settings, Storage, pack,
+};
 
 /// Coefficients of the lights that are far from the vertices of a grid, on the adapter, and the others.
 pub struct LightGrid {
     how: Interpolation,
+    /// As `how` stores them.
     coefficients: GridCoefficients,
     near: Vec<AreaLight>,
     smoothed: usize,
@@ -57,7 +60,12 @@ impl LightGrid {
             Near::Apart => (near, Vec::new()),
             Near::Smoothed => (Vec::new(), near),
         };
-        let (coefficients, passes) = project(grid, &Held { far: &far, near: &smoothed })?;
+        let (mut coefficients, mut passes) = project(grid, &Held { far: &far, near: &smoothed })?;
+        if how.storage == Storage::Packed {
+            let (packed, pass) = pack(lit.gpu, &coefficients)?;
+            coefficients.buffer = packed;
+            passes.extend(pass);
+        }
         let mut times = PassTimes::default();
         times.add(&passes, "prepare grid", start);
         Ok(Self { how, coefficients, near, smoothed: smoothed.len(), times })
@@ -94,8 +102,8 @@ impl LightGrid {
         pixels: &Pixels<'_>,
     ) -> Result<Reading, Error> {
         let GridCoefficients { grid, bands, ref buffer, .. } = self.coefficients;
-        let Interpolation { scheme, order, .. } = self.how;
-        let settings = Settings { grid, scheme, bands, kinds, order };
+        let Interpolation { scheme, order, storage, .. } = self.how;
+        let settings = Settings { grid, scheme, bands, kinds, order, storage };
         Reading::new(gpu, &settings, buffer, pixels)
     }
 }

@@ -2,7 +2,7 @@
 
 use manylights_method::{ChoiceWord, Dependencies, ParameterInfo, ParameterKind, Parameters};
 
-use crate::{Loops, Order, Scheme};
+use crate::{Loops, Order, Scheme, Storage};
 
 /// Where the grid lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,8 @@ pub struct Interpolation {
     pub order: Order,
     /// Of lights near the grid.
     pub near: Near,
+    /// Of the coefficients.
+    pub storage: Storage,
 }
 
 const NONE: &str = "none";
@@ -155,6 +157,24 @@ impl Interpolation {
         },
     };
 
+    /// The numbers at vertices.
+    pub const STORAGE: ParameterInfo = ParameterInfo {
+        name: "storage",
+        formerly: None,
+        introduced: Some("f32"),
+        help: "of the coefficients at the vertices of the grid",
+        kind: ParameterKind::Choice {
+            default: "f32",
+            words: &[
+                ChoiceWord { word: "f32", help: "single precision" },
+                ChoiceWord {
+                    word: "packed",
+                    help: "values in half precision, gradients in 8 bits: a third of the bytes",
+                },
+            ],
+        },
+    };
+
     /// `None` where every light is met at every pixel.
     pub fn new(parameters: &Parameters) -> Option<Self> {
         let scheme = parameters.choice(Self::SCHEME.name, &SCHEMES)?;
@@ -162,6 +182,7 @@ impl Interpolation {
         let loops = [("forward", Loops::Forward), ("reverse", Loops::Reverse)];
         let near = [("apart", Near::Apart), ("smoothed", Near::Smoothed)];
         let order = [("plain", Order::Plain), ("sorted", Order::Sorted)];
+        let storage = [("f32", Storage::F32), ("packed", Storage::Packed)];
         Some(Self {
             scheme,
             vertices: parameters.count(Self::GRID.name) as usize,
@@ -169,6 +190,7 @@ impl Interpolation {
             loops: parameters.choice(Self::LOOPS.name, &loops),
             order: parameters.choice(Self::READING.name, &order),
             near: parameters.choice(Self::NEAR.name, &near),
+            storage: parameters.choice(Self::STORAGE.name, &storage),
         })
     }
 

@@ -3,6 +3,7 @@
 mod common;
 mod grid;
 mod near;
+mod packing;
 mod reading;
 mod schemes;
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
-use manylights_interpolation::{self as interpolation, Grid, Order, Reach, Scheme};
+use manylights_interpolation::{self as interpolation, Grid, Order, Reach, Scheme, Storage};
 use manylights_metrics::RadianceImage;
 use manylights_polygonal_light::{Edges, Settings, TriangleForm, oracle};
 use manylights_reflectance::Materials;
@@ -40,7 +40,14 @@ fn error(
     });
     let bands = settings.bands;
     let kinds = Materials::new(surfaces.iter().map(|surface| surface.brdf())).kinds();
-    let read = interpolation::Settings { grid, scheme, bands, kinds, order: Order::Plain };
+    let read = interpolation::Settings {
+        grid,
+        scheme,
+        bands,
+        kinds,
+        order: Order::Plain,
+        storage: Storage::F32,
+    };
     let all = oracle::coefficients(&grid, &far, settings);
     let stored: Vec<[f32; 4]> = match scheme.reads_gradients() {
         true => all.as_flattened().iter().map(|parts| parts.map(|value| value as f32)).collect(),
@@ -96,6 +103,20 @@ fn pictures_are_those_of_f64() {
             println!("{approximation}, {word}: {error:.1e}");
             assert!(error < 1e-5, "{approximation}, {word}: {error:e}");
         }
+    }
+}
+
+/// Nearly the same pictures, and not from what f32 keeps.
+#[test]
+fn pictures_of_packed_coefficients_are_near() {
+    let scene = lit();
+    for (word, scheme) in SCHEMES {
+        let texts = [("bands", "4"), ("interpolation", word), ("grid", "4"), ("storage", "packed")];
+        let picture = render(&scene, RESOLUTION, &texts, DIRECT).expect("a picture");
+        let settings = Settings { bands: 4, ..exact(Edges::Shared) };
+        let error = error(&scene, &picture, 4, scheme, &settings);
+        println!("{word}: {error:.1e}");
+        assert!((1e-5..2e-3).contains(&error), "{word}: {error:e}");
     }
 }
 

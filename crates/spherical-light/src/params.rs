@@ -106,6 +106,7 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     Interpolation::LOOPS,
     Interpolation::READING,
     Interpolation::NEAR,
+    Interpolation::STORAGE,
 ];
 
 const NARROW: [(&str, Narrow); 3] =

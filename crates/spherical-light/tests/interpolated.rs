@@ -3,7 +3,7 @@
 use glam::Vec3;
 use manylights_area_lights::AreaLights;
 use manylights_gpu::{GpuFrame, SurfaceRecord};
-use manylights_interpolation::{self as interpolation, Grid, Near, Order, Reach, Scheme};
+use manylights_interpolation::{self as interpolation, Grid, Near, Order, Reach, Scheme, Storage};
 use manylights_method::{Dependencies, Frame, Method, Parameters, Processor, Run};
 use manylights_metrics::RadianceImage;
 use manylights_reflectance::Materials;
@@ -54,7 +54,14 @@ fn error(
     });
     let bands = settings.bands;
     let kinds = Materials::new(surfaces.iter().map(|surface| surface.brdf())).kinds();
-    let read = interpolation::Settings { grid, scheme, bands, kinds, order: Order::Plain };
+    let read = interpolation::Settings {
+        grid,
+        scheme,
+        bands,
+        kinds,
+        order: Order::Plain,
+        storage: Storage::F32,
+    };
     let mut all = oracle::coefficients(&grid, &far, settings);
     let near = match near_lights {
         Near::Apart => near,
@@ -155,6 +162,28 @@ fn pictures_with_smoothed_lights_are_those_of_f64() {
             [("lights", all), ("smoothed_lights", 2), ("pixels_outside", 0)]
         );
     });
+}
+
+/// Nearly the same pictures, and not from what f32 keeps.
+#[test]
+fn pictures_of_packed_coefficients_are_near() {
+    let scene = lit(false);
+    for (word, scheme) in SCHEMES {
+        for reading in ["plain", "sorted"] {
+            let texts = [
+                ("bands", "4"),
+                ("interpolation", word),
+                ("grid", "4"),
+                ("reading", reading),
+                ("storage", "packed"),
+            ];
+            let picture = render(&scene, RESOLUTION, &texts, DIRECT).expect("a picture");
+            let settings = Settings { bands: 4, ..SETTINGS };
+            let error = error(&scene, &picture, (4, Near::Apart), scheme, &settings);
+            println!("{word}, {reading}: {error:.1e}");
+            assert!((1e-5..2e-3).contains(&error), "{word}, {reading}: {error:e}");
+        }
+    }
 }
 
 fn parameters(settings: &[(&'static str, &'static str)]) -> Parameters {

@@ -144,7 +144,14 @@ impl Source {
     ) -> interpolation::Settings {
         let kinds = Materials::new(receivers.surfaces.iter().map(SurfaceRecord::brdf)).kinds();
         let (bands, order) = (self.bands(), Order::Sorted);
-        interpolation::Settings { grid, scheme, bands, kinds, order }
+        interpolation::Settings {
+            grid,
+            scheme,
+            bands,
+            kinds,
+            order,
+            storage: interpolation::Storage::F32,
+        }
     }
 }
 
