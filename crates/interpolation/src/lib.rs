@@ -29,7 +29,9 @@ pub use grid::{Grid, Place};
 pub use light_grid::{LightGrid, Lit};
 pub use near::Reach;
 pub use parameters::{Bounds, Interpolation};
-pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};
+pub use projection::{
+    GridCoefficients, Loops, ProjectionSettings, ProjectionShader, Projector, SourceShader, project,
+};
 pub use reading::Reading;
 pub use run::{COUNTERS, GridPart, InterpolatedRun};
 pub use scheme::{CORNERS, Scheme, Weights};

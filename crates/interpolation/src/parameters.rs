@@ -1,8 +1,9 @@
 //! What methods that interpolate are told.
 
+use manylights_harmonics::wgsl::order::Evaluation;
 use manylights_method::{ChoiceWord, Dependencies, ParameterInfo, ParameterKind, Parameters};
 
-use crate::{Loops, Order, Scheme};
+use crate::{Loops, Order, ProjectionSettings, Scheme};
 
 /// Where the grid lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,6 +139,12 @@ impl Interpolation {
             loops: parameters.choice(Self::LOOPS.name, &loops),
             order: parameters.choice(Self::READING.name, &order),
         })
+    }
+
+    /// The projection: by the recurrence, which keeps more digits than polynomials.
+    pub fn projection(&self) -> ProjectionSettings {
+        let gradients = self.scheme.reads_gradients();
+        ProjectionSettings { gradients, loops: self.loops, evaluation: Evaluation::Recurrence }
     }
 
     /// What coefficients at vertices depend on.

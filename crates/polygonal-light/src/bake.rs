@@ -17,9 +17,7 @@ fn light_grid(
     let AreaLightFrame { scene, on_gpu, pixels, ref lights, .. } = *frame;
     let gpu = on_gpu.gpu();
     let lit = Lit { gpu, scene, surfaces: (on_gpu.surfaces(), pixels), lights };
-    Ok(LightGrid::new(how, &lit, |grid, far| {
-        project(gpu, grid, settings, (how.scheme.reads_gradients(), how.loops), far)
-    })?)
+    Ok(LightGrid::new(how, &lit, |grid, far| project(gpu, grid, settings, how.projection(), far))?)
 }
 
 /// The lobes of a scene's materials, on the adapter, and what a grid holds of the lights: the bake.

@@ -69,7 +69,7 @@ fn light_grid(
     let AreaLightFrame { scene, on_gpu, pixels, ref lights, .. } = *frame;
     let gpu = on_gpu.gpu();
     let lit = Lit { gpu, scene, surfaces: (on_gpu.surfaces(), pixels), lights };
-    let shader = linked_projection(settings, how.scheme.reads_gradients(), how.loops)?;
+    let shader = linked_projection(settings, how.projection())?;
     Ok(LightGrid::new(how, &lit, |grid, far| {
         project(gpu, grid, &shader, &far.iter().filter_map(SphereLight::of).collect::<Vec<_>>())
     })?)

@@ -2,22 +2,21 @@
 
 use manylights_gpu::Error;
 use manylights_harmonics::wgsl::{self, Function};
-use manylights_interpolation::{Loops, ProjectionShader, SourceShader};
+use manylights_interpolation::{ProjectionSettings, ProjectionShader, SourceShader};
 
 use crate::gather::CAPACITY;
 use crate::{Extent, Settings};
 
-/// The projection of spheres, records of [`SphereLight`](crate::SphereLight), by the recurrence.
+/// The projection of spheres, records of [`SphereLight`](crate::SphereLight).
 ///
 /// # Errors
 /// Where the shader does not link.
 pub fn linked_projection(
     settings: &Settings,
-    gradients: bool,
-    loops: Loops,
+    how: ProjectionSettings,
 ) -> Result<ProjectionShader, Error> {
     let Settings { bands, extent, .. } = *settings;
-    let function = if gradients { Function::CapScalesWithRate } else { Function::CapScalesOf };
+    let function = if how.gradients { Function::CapScalesWithRate } else { Function::CapScalesOf };
     SourceShader {
         source: include_str!("shaders/source.wesl"),
         modules: &[
@@ -27,5 +26,5 @@ pub fn linked_projection(
         features: &[("disc", extent == Extent::Disc), ("tabulated", false)],
         capacity: CAPACITY,
     }
-    .link(bands, gradients, loops)
+    .link(bands, how)
 }
