@@ -2,6 +2,9 @@
 //! kept pipelines, beside the same at every pixel; written to `results/throughput/moving-lights.md`. Run with
 //! `cargo run -p manylights-tests --example moving_lights`, and the commit as its argument.
 
+#[path = "grid_projection/processors.rs"]
+mod processors;
+
 use std::time::Instant;
 
 use glam::Vec3;
@@ -106,23 +109,23 @@ impl Ways {
         lights(&self.grid, frame).iter().filter_map(SphereLight::of).collect()
     }
 
-    /// Wall clock, seconds: of projecting and of reading.
+    /// Seconds of all processors: of projecting and of reading.
     fn by_grid(&mut self, records: &[SphereLight]) -> [f64; 2] {
-        let start = Instant::now();
+        let start = processors::seconds(true);
         GPU.clear(&self.read).expect("a buffer");
         self.projector.project(records).expect("a projection");
-        let projected = start.elapsed().as_secs_f64();
+        let projected = processors::seconds(true) - start;
         self.reading.add().expect("a reading");
-        [projected, start.elapsed().as_secs_f64() - projected]
+        [projected, processors::seconds(true) - start - projected]
     }
 
-    /// Wall clock, seconds.
+    /// Seconds of all processors.
     fn by_pixel(&self, records: &[SphereLight]) -> f64 {
-        let start = Instant::now();
+        let start = processors::seconds(true);
         GPU.clear(self.gather.results()).expect("a buffer");
         let batches = self.gather.batches(records).expect("it fits");
         self.gather.add(&batches, 0..batches.count()).expect("a gather");
-        start.elapsed().as_secs_f64()
+        processors::seconds(true) - start
     }
 
     fn bits(&self) -> Vec<u32> {
@@ -136,7 +139,8 @@ fn image(pixels: &Buffer) -> RadianceImage {
     RadianceImage { width: RESOLUTION[0], height: RESOLUTION[1], pixels }
 }
 
-/// Wall clock of the whole method with its bake, which makes its tables and bounds as well; the second time, seconds.
+/// The whole method with its bake, which makes its tables and bounds as well; the second time, seconds of all
+/// processors.
 fn by_method(stage: &Stage, bands: usize) -> f64 {
     let method = AreaLights(SphericalLights);
     let bands = bands.to_string();
@@ -144,11 +148,11 @@ fn by_method(stage: &Stage, bands: usize) -> f64 {
     let parameters = Parameters::new(method.parameters(), texts).expect("in range");
     let frame = stage.frame(Transport::Direct { visibility: Visibility::Ignored }, 0);
     let picture = |_| {
-        let start = Instant::now();
+        let start = processors::seconds(true);
         let bake = method.baking().expect("tables").bake(&frame, &parameters).expect("a bake");
         let mut run = bake.prepare(&frame, &parameters).expect("a run");
         while !run.step().expect("a step").finished() {}
-        start.elapsed().as_secs_f64()
+        processors::seconds(true) - start
     };
     [0, 1].map(picture)[1]
 }
@@ -198,7 +202,7 @@ fn main() {
         "# Lights that move\n\n\
          `cargo run -p manylights-tests --example moving_lights` on {name} ({driver} {driver_info}), commit {commit}.\n\n\
          `trio` under {LIGHTS} spheres that circle around it, outside two cells of the grid; {}×{} pixels, 8³ \
-         vertices, `hermite`. Milliseconds of wall clock a frame, median of {FRAMES} frames with other positions, both \
+         vertices, `hermite`. Milliseconds of all processors together a frame (others ran besides), median of {FRAMES} frames with other positions, both \
          ways in turn. Projector, reading and gather are kept: a frame makes the lights' records, sorts the pixels, \
          and compiles nothing. `method`: a whole bake and picture of the method instead. Errors are relative to the \
          mean radiance, against every light at every pixel. The same positions gave the same bits in every row. At \

@@ -3,8 +3,7 @@
 //! `cargo run -p manylights-tests --example grid_projection`, and the commit as its argument.
 
 mod counted;
-#[path = "../virtual_light_throughput/peak.rs"]
-mod peak;
+mod processors;
 mod projected;
 mod tables;
 
@@ -17,6 +16,10 @@ use manylights_tests::GPU;
 
 use counted::operations_a_vertex;
 use projected::{Case, Kind, Time, far_share, times};
+
+/// Multiplications and additions a second and core that wait for nothing, of the machine at hand
+/// (`results/throughput/area-light-products.md`).
+const PEAK: f64 = 80e9;
 
 /// Thesis tables 3.2 and 4.3, ms: polynomials forward and reverse, recurrence forward and reverse, triangles by
 /// spheres, polygons.
@@ -66,7 +69,7 @@ fn lines(bands: usize) -> Vec<Line> {
 }
 
 /// The rows of one number of bands; `published` as [`THESIS`] has them.
-fn rows(lines: &[Line], published: [f64; 6], peak: f64) -> String {
+fn rows(lines: &[Line], published: [f64; 6]) -> String {
     let mut text = String::new();
     let reverse_spheres = (lines[3].with.median, published[3]);
     for (index, Line { case, with, without }) in lines.iter().enumerate() {
@@ -92,7 +95,7 @@ fn rows(lines: &[Line], published: [f64; 6], peak: f64) -> String {
             with.median / reverse_spheres.0,
             1e9 * with.median / vertices / f64::from(case.lights),
             operations / f64::from(case.lights) / 1e3,
-            100.0 * operations * vertices / with.median / peak,
+            100.0 * operations * vertices / with.median / PEAK,
         )
         .expect("writing to a string");
     }
@@ -102,26 +105,26 @@ fn rows(lines: &[Line], published: [f64; 6], peak: f64) -> String {
 fn main() {
     let AdapterReport { name, driver, driver_info, .. } = GPU.report();
     let commit = std::env::args().nth(1).unwrap_or_else(|| "unknown".to_owned());
-    let peak = peak::operations_a_second(&GPU);
     let mut text = format!(
         "# Projecting lights at the vertices of a grid\n\n\
          `cargo run -p manylights-tests --example grid_projection` on {name} ({driver} {driver_info}), commit {commit}.\n\n\
-         The projection's own passes, warm; median [quartiles] of {} interleaved rounds, in milliseconds. A square \
+         The projection's own passes, warm; median [quartiles] of {} interleaved rounds, in milliseconds of all \
+         processors together, since others ran besides: on two idle ones a pass takes half of it. A square \
          of triangles over a grid of 2 × 1 × 2 m, or the spheres that stand for them. `ns`: of a vertex and light \
          with gradients; `operations`: thousands on floats of a vertex and light in the kernel's text, all lanes of \
          the vertex together; the peak, of multiplications and additions that wait for nothing, is {:.0} G \
-         operations/s. The thesis' times are of an RTX 2080.\n\n\
+         operations/s a core. The thesis' times are of an RTX 2080.\n\n\
          ## 8³ vertices, 648 lights (thesis tables 3.2 and 4.3)\n\n\
          Of the pairs of exact triangle and vertex {:.0} % are far (seven points instead of edges).\n\n\
          | bands | lights | harmonics | loops | with gradients | without | gradients cost | ÷ spheres, reverse | ns \
          | thesis ms | ÷ spheres, reverse | operations | of the peak |\n\
          |---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         projected::ROUNDS,
-        peak / 1e9,
+        PEAK / 1e9,
         100.0 * far_share(8, 648),
     );
     for (bands, published) in THESIS {
-        text += &rows(&lines(bands), published, peak);
+        text += &rows(&lines(bands), published);
     }
     text += &tables::section();
     let folder = "results/throughput";

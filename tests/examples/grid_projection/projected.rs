@@ -4,7 +4,6 @@ use std::fmt;
 use std::time::Instant;
 
 use glam::Vec3;
-use manylights_gpu::PassTime;
 use manylights_harmonics::wgsl::order::Evaluation;
 use manylights_harmonics::zonal::TriangleForm;
 use manylights_interpolation::{Grid, Loops, ProjectionSettings, Projector};
@@ -14,7 +13,9 @@ use manylights_spherical_light::SphereLight;
 use manylights_tests::GPU;
 use {manylights_polygonal_light as polygonal, manylights_spherical_light as spherical};
 
-pub(crate) const ROUNDS: usize = 9;
+use crate::processors;
+
+pub(crate) const ROUNDS: usize = 5;
 
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
@@ -79,30 +80,28 @@ impl Case {
         }
     }
 
-    /// One projection, ready to be run again: the seconds of its passes.
-    fn prepared(self) -> Box<dyn Fn() -> f64> {
+    /// One projection, ready to be run again.
+    fn prepared(self) -> Box<dyn Fn()> {
         let (grid, triangles) = (grid(self.vertices), panel(self.lights));
         if self.kind == Kind::Spheres {
             let settings = spherical::Settings { bands: self.bands, ..Default::default() };
             let shader = spherical::linked_projection(&settings, self.how()).expect("it links");
             let projector = Projector::new(&GPU, grid, &shader).expect("it fits");
             let spheres: Vec<_> = triangles.iter().map(sphere).collect();
-            return Box::new(move || sum(&projector.project(&spheres).expect("a projection")));
+            return Box::new(move || {
+                projector.project(&spheres).expect("a projection");
+            });
         }
         let (bands, approximation) = (self.bands, self.kind.approximation());
         let settings = polygonal::Settings { bands, approximation, narrow: Narrow::Decline };
         Box::new(move || {
             let projected = polygonal::project(&GPU, grid, &settings, self.how(), &triangles);
-            sum(&projected.expect("a projection").1)
+            projected.expect("a projection");
         })
     }
 }
 
-fn sum(times: &[PassTime]) -> f64 {
-    times.iter().map(|time| time.seconds).sum()
-}
-
-/// Seconds.
+/// Seconds of all processors.
 #[derive(Clone, Copy)]
 pub(crate) struct Time {
     pub(crate) median: f64,
@@ -130,7 +129,9 @@ pub(crate) fn times(cases: &[Case]) -> Vec<Time> {
     let mut seconds = vec![Vec::new(); cases.len()];
     for _ in 0..ROUNDS {
         for (seconds, project) in seconds.iter_mut().zip(&prepared) {
-            seconds.push(project());
+            let before = processors::seconds(false);
+            project();
+            seconds.push(processors::seconds(false) - before);
         }
     }
     let condensed = |mut rounds: Vec<f64>| {
