@@ -83,7 +83,7 @@ fn a_kept_projector_replaces_what_it_held() {
     };
     let shader = linked_projection(&settings, how).expect("links");
     let projector = Projector::new(&GPU, grid(), &shader).expect("it fits");
-    let mut bits = |lights: &[SphereLight]| {
+    let bits = |lights: &[SphereLight]| {
         projector.project(lights).expect("a projection");
         GPU.read::<u32>(&projector.coefficients().buffer).expect("coefficients")
     };
