@@ -13,6 +13,7 @@ use manylights_interpolation::{
 };
 use manylights_reflectance::{Damping, Form, Materials, Tables, diffuse};
 use manylights_scene::{Brdf, Lobe};
+use manylights_tests::processors;
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 360;
@@ -116,9 +117,9 @@ fn compare(gpu: &Gpu, (name, brdf): (&str, Brdf), bands: usize, scheme: Scheme) 
 }
 
 fn read_again(way: &mut Measured) {
-    let (start, before) = (Instant::now(), of_processors());
+    let (start, before) = (Instant::now(), processors::seconds(true));
     let times = way.reading.add().expect("a run");
-    way.of_processors += (of_processors() - before) / f64::from(ROUNDS);
+    way.of_processors += (processors::seconds(true) - before) / f64::from(ROUNDS);
     let seconds = start.elapsed().as_secs_f64();
     if seconds < way.best {
         way.best = seconds;
@@ -171,11 +172,4 @@ fn surfaces(brdf: Brdf) -> Vec<SurfaceRecord> {
 
 fn noise(i: usize) -> f32 {
     ((i as f64 * 0.754_877_666_246_692_8).fract() * 2.0 - 1.0) as f32
-}
-
-/// Seconds of this program on all processors so far: what others run besides does not move it.
-fn of_processors() -> f64 {
-    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let ticks = text.rsplit(')').next().and_then(|rest| rest.split_whitespace().nth(11));
-    ticks.and_then(|ticks| ticks.parse::<f64>().ok()).map_or(f64::NAN, |ticks| 0.01 * ticks)
 }

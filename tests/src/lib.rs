@@ -1,6 +1,8 @@
 //! What the tests of this package share: pictures by any method, and their references.
 
 pub mod gridded;
+pub mod page;
+pub mod processors;
 
 use std::sync::LazyLock;
 

@@ -40,7 +40,9 @@ pub use light_grid::{Held, LightGrid, Lit};
 pub use near::Reach;
 pub use packing::pack;
 pub use parameters::{Bounds, Interpolation, Near};
-pub use projection::{GridCoefficients, Loops, ProjectionShader, SourceShader, project};
+pub use projection::{
+    GridCoefficients, Loops, ProjectionSettings, ProjectionShader, Projector, SourceShader, project,
+};
 pub use reading::Reading;
 pub use scheme::{CORNERS, Scheme, Weights};
 pub use settings::{Order, Settings, Storage};

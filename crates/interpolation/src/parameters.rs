@@ -1,8 +1,9 @@
 //! What methods that interpolate are told.
 
+use manylights_harmonics::wgsl::order::Evaluation;
 use manylights_method::{ChoiceWord, Dependencies, ParameterInfo, ParameterKind, Parameters};
 
-use crate::{Loops, Order, Scheme, Storage};
+use crate::{Loops, Order, ProjectionSettings, Scheme, Storage};
 
 /// Where the grid lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -192,6 +193,12 @@ impl Interpolation {
             near: parameters.choice(Self::NEAR.name, &near),
             storage: parameters.choice(Self::STORAGE.name, &storage),
         })
+    }
+
+    /// The projection: by the recurrence, which keeps more digits than polynomials.
+    pub fn projection(&self) -> ProjectionSettings {
+        let gradients = self.scheme.reads_gradients();
+        ProjectionSettings { gradients, loops: self.loops, evaluation: Evaluation::Recurrence }
     }
 
     /// What coefficients at vertices depend on.

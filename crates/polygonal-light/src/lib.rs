@@ -140,7 +140,7 @@ pub use manylights_area_lights::{Edges, Narrow};
 pub use manylights_harmonics::zonal::TriangleForm;
 pub use operations::{ExactOperations, exact_operations, record_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};
-pub use projection::project;
+pub use projection::{linked_exact_projection, linked_projection, project};
 
 /// The method is `AreaLights(PolygonalLights)`.
 #[derive(Clone, Copy, Debug)]

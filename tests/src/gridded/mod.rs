@@ -5,8 +5,9 @@ pub mod fields;
 
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
+use manylights_harmonics::wgsl::order::Evaluation;
 use manylights_interpolation::{
-    self as interpolation, Grid, Loops, Order, Pixels, Reading, Scheme,
+    self as interpolation, Grid, Loops, Order, Pixels, ProjectionSettings, Reading, Scheme,
 };
 use manylights_polygonal_light as polygonal;
 use manylights_reflectance::{Damping, Form, Materials, Tables};
@@ -53,10 +54,14 @@ impl Source {
         receivers: &Receivers,
     ) -> (Vec<DVec3>, u32) {
         let settings = self.reading(grid, scheme, receivers);
-        let how = (scheme.reads_gradients(), Loops::Forward);
+        let how = ProjectionSettings {
+            gradients: scheme.reads_gradients(),
+            loops: Loops::Forward,
+            evaluation: Evaluation::Recurrence,
+        };
         let projected = match self {
             Self::Spheres(own) => {
-                let shader = spherical::linked_projection(own, how.0, how.1).expect("it links");
+                let shader = spherical::linked_projection(own, how).expect("it links");
                 interpolation::project(&GPU, grid, &shader, &spheres(lights))
             }
             Self::Triangles(own) => polygonal::project(&GPU, grid, own, how, lights),
