@@ -150,7 +150,7 @@ impl Estimator for PolygonalLights {
     const ID: &'static str = "polygonal-light";
     const TITLE: &'static str =
         "polygonal lights on harmonics (Wang & Ramamoorthi 2018; thesis 3.3, 4.2)";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     const TAKES: &'static str = "triangles";
     const PROJECT: Option<Project> = Some(projection::project_lights);

@@ -93,7 +93,7 @@ impl Estimator for SphericalLights {
     const ID: &'static str = "spherical-light";
     const TITLE: &'static str =
         "spherical lights on harmonics (Mézières et al., JFIG 2020; thesis 3.1)";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     const TAKES: &'static str = "spheres";
     const PROJECT: Option<Project> = Some(projection::project_lights);

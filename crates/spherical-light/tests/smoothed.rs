@@ -1,7 +1,8 @@
 //! Lights in a grid, smoothed to what it can hold.
 
 use glam::Vec3;
-use manylights_interpolation::{Grid, Loops, Scheme, project};
+use manylights_harmonics::wgsl::order::Evaluation;
+use manylights_interpolation::{Grid, Loops, ProjectionSettings, Scheme, project};
 use manylights_spherical_light::{Extent, Settings, SphereLight, linked_projection, oracle};
 
 use crate::common::{GPU, SETTINGS, spiral};
@@ -86,7 +87,9 @@ fn gradients_by_a_cell_are_bounded() {
             truth.as_flattened().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         assert!(largest < most * f64::from(smoothed.radiance.x), "{distance}: {largest}");
         for loops in [Loops::Forward, Loops::Reverse] {
-            let shader = linked_projection(&DISCS, true, loops).expect("links");
+            let evaluation = Evaluation::Recurrence;
+            let how = ProjectionSettings { gradients: true, loops, evaluation };
+            let shader = linked_projection(&DISCS, how).expect("links");
             let (found, _) = project(&GPU, grid, &shader, &[smoothed]).expect("a projection");
             let found: Vec<[f32; 4]> = GPU.read(&found.buffer).expect("coefficients");
             let pairs = truth.as_flattened().iter().zip(found.as_flattened());
