@@ -105,6 +105,11 @@ impl Sorted {
         self.outside
     }
 
+    /// Sorts pixels again the next time.
+    pub(crate) fn forget_order(&mut self) {
+        self.order = None;
+    }
+
     pub(crate) fn add(&mut self, gpu: &Gpu) -> Result<Vec<PassTime>, Error> {
         let (order, mut times) = match self.order.take() {
             Some(order) => (order, Vec::new()),
