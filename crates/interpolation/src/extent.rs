@@ -14,6 +14,9 @@ const LANES: u32 = 64;
 /// Of the largest side: how thick a box is at least, so that a floor has a grid.
 const LEAST_SIDE: f32 = 1e-3;
 
+/// Of the largest coordinate: the same where floats are too far apart for that.
+const LEAST_SHARE: f32 = 8.0 * f32::EPSILON;
+
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 struct Told {
@@ -40,7 +43,9 @@ impl Interpolation {
         let [least, most] = seen.unwrap_or_else(|| scene.bounds().into());
         let largest = (most - least).max_element();
         let side = if largest > 0.0 { largest } else { 1.0 };
-        let missing = (LEAST_SIDE * side - (most - least)).max(Vec3::ZERO);
+        let farthest = least.abs().max(most.abs()).max_element();
+        let thickness = (LEAST_SIDE * side).max(LEAST_SHARE * farthest);
+        let missing = (thickness - (most - least)).max(Vec3::ZERO);
         let corners = [least - 0.5 * missing, most + 0.5 * missing].map(|corner| corner.to_array());
         Ok(Grid::of_cubes(corners, self.vertices))
     }

@@ -41,7 +41,8 @@ pub use near::Reach;
 pub use packing::pack;
 pub use parameters::{Bounds, Interpolation, Near};
 pub use projection::{
-    GridCoefficients, Loops, ProjectionSettings, ProjectionShader, Projector, SourceShader, project,
+    GridCoefficients, Loops, ProjectionSettings, ProjectionShader, Projector, SourceShader,
+    project, run_in_steps, vectors_of_grid,
 };
 pub use reading::Reading;
 pub use scheme::{CORNERS, Scheme, Weights};

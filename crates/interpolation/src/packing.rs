@@ -14,7 +14,7 @@ const LANES: u32 = 64;
 /// - the scales of red, green and blue, in single precision: L_00, which no coefficient of a light exceeds by more than
 ///   √(2l + 1), or where it is small for want of bands or of sign, 1/256 of the largest coefficient;
 /// - with gradients a scale for each band, four a vector: the largest derivative by a cell of all its orders and
-///   channels;
+///   channels, so that the gradients of a channel far darker than the others keep few steps;
 /// - with gradients a vector for each coefficient: red, green and blue over their scales in half precision, blue's
 ///   first two derivatives over the band's scale in 8 bits each; red's three and blue's third; green's three;
 /// - without, a vector for two coefficients, red, green, blue and nothing each.

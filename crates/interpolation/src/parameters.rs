@@ -58,7 +58,8 @@ impl Interpolation {
         name: "interpolation",
         formerly: None,
         introduced: Some(NONE),
-        help: "of the lights' coefficients between the vertices of a grid (thesis 3.3.4)",
+        help: "of the lights' coefficients between the vertices of a grid (thesis 3.3.4); beyond 9 bands software \
+               adapters compile its kernels for minutes",
         kind: ParameterKind::Choice {
             default: NONE,
             words: &[
@@ -105,14 +106,14 @@ impl Interpolation {
         },
     };
 
-    /// The projection's loops. Forward by default: on a software adapter reversed ones were faster in 3 of 10
-    /// projections (`results/interpolation-bands`); the thesis reverses them so that a graphics card's registers hold
-    /// the sums.
+    /// The projection's loops. Forward by default: on a software adapter reversed ones take 1.2 to 2 times as long
+    /// (`results/throughput/projection.md`); the thesis reverses them so that a graphics card's registers hold the
+    /// sums.
     pub const LOOPS: ParameterInfo = ParameterInfo {
         name: "loops",
         formerly: None,
         introduced: Some("forward"),
-        help: "over lights and coefficients at a vertex (thesis 3.3.3)",
+        help: "over lights and coefficients at a vertex (thesis 3.3.3); exact polygons have none",
         kind: ParameterKind::Choice {
             default: "forward",
             words: &[
@@ -126,15 +127,19 @@ impl Interpolation {
     pub const READING: ParameterInfo = ParameterInfo {
         name: "reading",
         formerly: None,
-        introduced: Some("sorted"),
+        introduced: Some("chosen"),
         help: "of the grid at each pixel",
         kind: ParameterKind::Choice {
-            default: "sorted",
+            default: "chosen",
             words: &[
                 ChoiceWord { word: "plain", help: "pixel by pixel" },
                 ChoiceWord {
                     word: "sorted",
                     help: "cell by cell, its corners in uniform memory where they fit",
+                },
+                ChoiceWord {
+                    word: "chosen",
+                    help: "sorted, but plain where cells have so few pixels that it is faster",
                 },
             ],
         },
@@ -170,7 +175,8 @@ impl Interpolation {
                 ChoiceWord { word: "f32", help: "single precision" },
                 ChoiceWord {
                     word: "packed",
-                    help: "values in half precision, gradients in 8 bits: a third of the bytes",
+                    help: "values in half precision, gradients in 8 bits: a third of the bytes, half of them \
+                           without gradients",
                 },
             ],
         },
@@ -182,7 +188,7 @@ impl Interpolation {
         let bounds = [("view", Bounds::View), ("scene", Bounds::Scene)];
         let loops = [("forward", Loops::Forward), ("reverse", Loops::Reverse)];
         let near = [("apart", Near::Apart), ("smoothed", Near::Smoothed)];
-        let order = [("plain", Order::Plain), ("sorted", Order::Sorted)];
+        let order = [("plain", Order::Plain), ("sorted", Order::Sorted), ("chosen", Order::Chosen)];
         let storage = [("f32", Storage::F32), ("packed", Storage::Packed)];
         Some(Self {
             scheme,

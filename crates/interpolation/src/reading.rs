@@ -5,17 +5,20 @@ use manylights_gpu::{Buffer, Error, Gpu, Pass, PassTime, Resource, workgroups};
 use crate::shader::{LANES, Shader};
 use crate::sorted::Sorted;
 use crate::view::View;
-use crate::{Pixels, Settings};
+use crate::{Order, Pixels, Settings};
 
 /// Radiance of pixels from a grid of coefficients, on the adapter.
 pub struct Reading {
     gpu: Gpu,
-    way: Way,
+    /// Where pixels are not sorted, and where their cells have too few of them for that.
+    plain: Plain,
+    sorted: Option<Sorted>,
 }
 
-enum Way {
-    Plain { pass: Pass, workgroups: [u32; 3], outside: Buffer },
-    Sorted(Sorted),
+struct Plain {
+    pass: Pass,
+    workgroups: [u32; 3],
+    outside: Buffer,
 }
 
 impl Reading {
@@ -30,18 +33,10 @@ impl Reading {
         pixels: &Pixels<'_>,
     ) -> Result<Self, Error> {
         let view = gpu.uniform("view", &View::new(&settings.grid, pixels))?;
-        let way = if settings.is_sorted() {
-            Way::Sorted(Sorted::new(gpu, settings, [&view, coefficients], pixels)?)
-        } else {
-            let outside = gpu.zeroed("pixels outside", 4)?;
-            let kernel = Shader::read(settings)?.compile(gpu)?;
-            let Pixels { surfaces, results, tables, count, .. } = *pixels;
-            let own = [&view, surfaces, results, &outside, coefficients];
-            let resources: Vec<_> = own.into_iter().chain(tables).map(Resource::Buffer).collect();
-            let pass = gpu.pass("read", &kernel, &resources)?;
-            Way::Plain { pass, workgroups: workgroups(count, LANES), outside }
-        };
-        Ok(Self { gpu: gpu.clone(), way })
+        let sorted = settings.is_sorted();
+        let sorted = sorted.then(|| Sorted::new(gpu, settings, [&view, coefficients], pixels));
+        let plain = Plain::new(gpu, settings, [&view, coefficients], pixels)?;
+        Ok(Self { gpu: gpu.clone(), plain, sorted: sorted.transpose()? })
     }
 
     /// Adds what all pixels reflect of the grid, and waits.
@@ -49,27 +44,51 @@ impl Reading {
     /// # Errors
     /// Where the device gave up, or refuses a buffer.
     pub fn add(&mut self) -> Result<Vec<PassTime>, Error> {
-        match &mut self.way {
-            Way::Plain { pass, workgroups, .. } => self.gpu.run(&[pass.over(*workgroups)]),
-            Way::Sorted(sorted) => sorted.add(&self.gpu),
+        let mut times = Vec::new();
+        if let Some(sorted) = &mut self.sorted {
+            let (sorting, is_read) = sorted.add(&self.gpu)?;
+            times = sorting;
+            if is_read {
+                return Ok(times);
+            }
         }
+        let Plain { pass, workgroups, .. } = &self.plain;
+        times.extend(self.gpu.run(&[pass.over(*workgroups)])?);
+        Ok(times)
     }
 
     /// Says that the surfaces of the pixels have changed: they are sorted again.
     pub fn move_surfaces(&mut self) {
-        if let Way::Sorted(sorted) = &mut self.way {
+        if let Some(sorted) = &mut self.sorted {
             sorted.forget_order();
         }
     }
 
-    /// How often a pixel was read whose point is outside of the grid: the nearest point of the grid stands for it.
+    /// How often a pixel was read whose point is outside of the grid by more than a thousandth of a cell: the nearest
+    /// point of the grid stands for it.
     ///
     /// # Errors
     /// Where the device gave up.
     pub fn outside(&self) -> Result<u32, Error> {
-        match &self.way {
-            Way::Plain { outside, .. } => Ok(self.gpu.read::<u32>(outside)?[0]),
-            Way::Sorted(sorted) => Ok(sorted.outside()),
-        }
+        let sorted = self.sorted.as_ref().map_or(0, Sorted::outside);
+        Ok(sorted + self.gpu.read::<u32>(&self.plain.outside)?[0])
+    }
+}
+
+impl Plain {
+    fn new(
+        gpu: &Gpu,
+        settings: &Settings,
+        [view, coefficients]: [&Buffer; 2],
+        pixels: &Pixels<'_>,
+    ) -> Result<Self, Error> {
+        let outside = gpu.zeroed("pixels outside", 4)?;
+        let settings = Settings { order: Order::Plain, ..*settings };
+        let kernel = Shader::read(&settings)?.compile(gpu)?;
+        let Pixels { surfaces, results, tables, count, .. } = *pixels;
+        let own = [view, surfaces, results, &outside, coefficients];
+        let resources: Vec<_> = own.into_iter().chain(tables).map(Resource::Buffer).collect();
+        let pass = gpu.pass("read", &kernel, &resources)?;
+        Ok(Self { pass, workgroups: workgroups(count, LANES), outside })
     }
 }

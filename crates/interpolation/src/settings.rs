@@ -36,14 +36,16 @@ pub enum Storage {
     Packed,
 }
 
-/// In which pixels are read.
+/// In which pixels are read. The radiance is the same but for the last digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
     /// Each by itself, its corners from storage.
     Plain,
     /// Cell by cell, so that all lanes read the same corners, from uniform memory; plain where a cell does not
-    /// fit there ([`Settings::is_sorted`]). The same radiance but for the last digits.
+    /// fit there ([`Settings::is_sorted`]).
     Sorted,
+    /// The same, but plain as well where cells have so few pixels that it is faster.
+    Chosen,
 }
 
 impl Settings {
@@ -69,7 +71,7 @@ impl Settings {
 
     /// Whether pixels are sorted: in single precision up to 13 bands with gradients, else whatever their number.
     pub fn is_sorted(&self) -> bool {
-        self.order == Order::Sorted && self.block_bytes() <= UNIFORM_BYTES
+        self.order != Order::Plain && self.block_bytes() <= UNIFORM_BYTES
     }
 
     /// Of a cell with its eight corners, as uniform memory holds it.
@@ -78,8 +80,20 @@ impl Settings {
     }
 
     /// Of those that are sorted. The more, the more often a number that is loaded is used, and the longer the
-    /// kernel, which holds the turns of each one's specular lobe (`results/throughput/interpolation.md`).
+    /// kernel, which holds the turns of each one's specular lobe (`results/throughput/interpolation.md`): measured at
+    /// 9 bands, beyond which its length is kept.
     pub(crate) fn pixels_a_lane(&self) -> usize {
-        if self.kinds.specular { 6 } else { 12 }
+        let most = if self.kinds.specular { 6 } else { 12 };
+        (most * count(9) / count(self.bands)).clamp(1, most)
+    }
+
+    /// How many places in the order of sorted pixels, where there may be a pixel or not, may be there for a pixel:
+    /// plain reading takes so many times their time at the least (`results/throughput/interpolation.md`).
+    pub(crate) fn places_a_pixel(&self) -> u64 {
+        match self.order {
+            Order::Chosen if self.scheme.reads_gradients() => 3,
+            Order::Chosen => 2,
+            Order::Plain | Order::Sorted => u64::MAX,
+        }
     }
 }

@@ -12,11 +12,16 @@ use crate::{Pixels, Settings};
 /// Blocks of cells that are held at a time.
 const BLOCKS_BYTES: usize = 1 << 26;
 
+/// Workgroups in a row, one a cell, that any adapter takes.
+const MOST_CELLS: usize = 65_535;
+
 /// What reads pixels cell by cell: their order is found at the first time.
 pub(crate) struct Sorted {
     cells: [u32; 3],
     block_bytes: usize,
     pixels_a_group: u32,
+    /// As [`Settings::places_a_pixel`].
+    places_a_pixel: u64,
     workgroups: [u32; 3],
     count: Arc<Kernel>,
     scatter: Arc<Kernel>,
@@ -34,11 +39,15 @@ pub(crate) struct Sorted {
 }
 
 /// The pixels sorted by cell.
-struct Order {
-    layout: Layout,
-    /// Their numbers.
-    pixels: Buffer,
-    outside: u32,
+enum Order {
+    Dense {
+        layout: Layout,
+        /// Their numbers.
+        pixels: Buffer,
+        outside: u32,
+    },
+    /// Cells have too few of them.
+    Sparse,
 }
 
 /// Where the pixels of cells stand in the order of all.
@@ -50,7 +59,7 @@ struct Layout {
     /// Of the same.
     pixels: Vec<u32>,
     /// Places in all: the pixels of each cell fill whole workgroups.
-    length: u32,
+    length: u64,
 }
 
 impl Layout {
@@ -58,16 +67,21 @@ impl Layout {
         let mut layout =
             Self { firsts: Vec::new(), cells: Vec::new(), pixels: Vec::new(), length: 0 };
         for (index, &count) in (0..).zip(counts) {
-            layout.firsts.push(layout.length);
+            layout.firsts.push(layout.length as u32);
             if count == 0 {
                 continue;
             }
             let cell = [index % width, index / width % height, index / (width * height)];
-            layout.cells.push([cell[0], cell[1], cell[2], layout.length]);
+            layout.cells.push([cell[0], cell[1], cell[2], layout.length as u32]);
             layout.pixels.push(count);
-            layout.length += count.next_multiple_of(pixels_a_group);
+            layout.length += u64::from(count.next_multiple_of(pixels_a_group));
         }
         layout
+    }
+
+    /// Pixels that see something.
+    fn seen(&self) -> u64 {
+        self.pixels.iter().copied().map(u64::from).sum()
     }
 }
 
@@ -84,6 +98,7 @@ impl Sorted {
             cells: settings.grid.vertices.map(|vertices| vertices as u32 - 1),
             block_bytes,
             pixels_a_group: LANES * settings.pixels_a_lane() as u32,
+            places_a_pixel: settings.places_a_pixel(),
             workgroups: workgroups(pixels.count, LANES),
             count: Shader::count(settings)?.compile(gpu)?,
             scatter: Shader::scatter(settings)?.compile(gpu)?,
@@ -100,7 +115,7 @@ impl Sorted {
         })
     }
 
-    /// As [`Reading::outside`](crate::Reading::outside).
+    /// How often a pixel outside was read.
     pub(crate) fn outside(&self) -> u32 {
         self.outside
     }
@@ -110,19 +125,24 @@ impl Sorted {
         self.order = None;
     }
 
-    pub(crate) fn add(&mut self, gpu: &Gpu) -> Result<Vec<PassTime>, Error> {
-        let (order, mut times) = match self.order.take() {
-            Some(order) => (order, Vec::new()),
-            None => self.sort(gpu)?,
-        };
-        self.outside += order.outside;
-        let most = BLOCKS_BYTES / self.block_bytes;
-        let Layout { cells, pixels, .. } = &order.layout;
-        for (cells, pixels) in cells.chunks(most).zip(pixels.chunks(most)) {
-            times.extend(self.read(gpu, &order.pixels, cells, pixels)?);
+    /// Sorts the pixels where that is to be done, and adds what they reflect. False where nothing was added, since
+    /// their cells have so few each that plain reading is faster.
+    pub(crate) fn add(&mut self, gpu: &Gpu) -> Result<(Vec<PassTime>, bool), Error> {
+        let mut times = Vec::new();
+        if self.order.is_none() {
+            let (order, sorting) = self.sort(gpu)?;
+            self.order = Some(order);
+            times = sorting;
         }
-        self.order = Some(order);
-        Ok(times)
+        let Some(Order::Dense { layout, pixels, outside }) = &self.order else {
+            return Ok((times, false));
+        };
+        let most = (BLOCKS_BYTES / self.block_bytes).min(MOST_CELLS);
+        for (cells, counts) in layout.cells.chunks(most).zip(layout.pixels.chunks(most)) {
+            times.extend(self.read(gpu, pixels, cells, counts)?);
+        }
+        self.outside += outside;
+        Ok((times, true))
     }
 
     fn sort(&self, gpu: &Gpu) -> Result<(Order, Vec<PassTime>), Error> {
@@ -133,11 +153,14 @@ impl Sorted {
         let mut times = gpu.run(&[count.over(self.workgroups)])?;
         let counts: Vec<u32> = gpu.read(&counts)?;
         let layout = Layout::new(self.cells, &counts[..cells], self.pixels_a_group);
+        if layout.length > self.places_a_pixel.saturating_mul(layout.seen()) {
+            return Ok((Order::Sparse, times));
+        }
         let firsts = gpu.storage("first pixels of cells", &layout.firsts)?;
-        let pixels = gpu.zeroed("pixels in order", 4 * u64::from(layout.length))?;
+        let pixels = gpu.zeroed("pixels in order", 4 * layout.length)?;
         let scatter = self.pass(gpu, "sort", &self.scatter, &[&self.places, &firsts, &pixels])?;
         times.extend(gpu.run(&[scatter.over(self.workgroups)])?);
-        Ok((Order { layout, pixels, outside: counts[cells] }, times))
+        Ok((Order::Dense { layout, pixels, outside: counts[cells] }, times))
     }
 
     fn pass(

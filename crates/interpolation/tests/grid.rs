@@ -1,7 +1,11 @@
 //! Vertices, cells and the points between them.
 
-use manylights_interpolation::Grid;
+use glam::Vec3;
+use manylights_gpu::SurfaceRecord;
+use manylights_interpolation::{Bounds, Grid, Interpolation, Loops, Near, Order, Scheme, Storage};
 use proptest::prelude::*;
+
+use crate::common::{GPU, lambertian};
 
 fn grid() -> Grid<f64> {
     Grid::over([[-1.0, 0.0, 2.0], [1.0, 3.0, 4.0]], [3, 4, 5])
@@ -86,5 +90,34 @@ proptest! {
         prop_assert!(largest <= alike * (1.0 + 1e-12));
         let least = least_spacing(sides, vertices.pow(3));
         prop_assert!((largest - least).abs() <= 1e-9 * least, "{:?}", grid.vertices);
+    }
+}
+
+/// Far from the origin floats are too far apart for the thickness that a floor gets elsewhere.
+#[test]
+fn a_floor_has_a_grid_wherever_it_lies() {
+    let how = Interpolation {
+        scheme: Scheme::Hermite,
+        vertices: 8,
+        bounds: Bounds::View,
+        loops: Loops::Forward,
+        order: Order::Chosen,
+        near: Near::Apart,
+        storage: Storage::F32,
+    };
+    let scene = manylights_scene::load("cornell", None).expect("built in");
+    for (height, side) in [(0.0, 2.0), (1e5, 2.0), (-5e3, 2e-3), (1e5, 0.0)] {
+        let corners = [Vec3::new(-side, height, -side), Vec3::new(side, height, side)];
+        let surfaces = corners.map(|corner| SurfaceRecord::new(corner, Vec3::Y, lambertian()));
+        let surfaces = GPU.storage("surfaces", &surfaces).expect("they fit");
+        let grid = how.grid(&GPU, &scene, (&surfaces, 2)).expect("a grid");
+        for corner in corners {
+            let along = (corner - Vec3::from(grid.origin)) / Vec3::from(grid.spacing);
+            let cells = Vec3::from(grid.vertices.map(|vertices| (vertices - 1) as f32));
+            assert!(
+                along.cmpge(Vec3::ZERO).all() && along.cmple(cells).all(),
+                "{height}, {side}: {grid:?}"
+            );
+        }
     }
 }

@@ -156,3 +156,32 @@ fn readings_add_up() {
         assert_eq!(outside, 2 * OUTSIDE);
     }
 }
+
+/// Few pixels a cell are read plain where that may be chosen, many are sorted; the radiance is the same.
+#[test]
+fn what_is_faster_is_chosen() {
+    let brdfs = [lambertian()];
+    let settings = |order| Settings { order, ..settings(Scheme::Hermite, 3, &brdfs) };
+    let passes = |order, surfaces: &[SurfaceRecord]| {
+        let settings = settings(order);
+        let light = coefficients(&settings);
+        let passes = std::cell::RefCell::new(Vec::new());
+        let (values, outside) = on_adapter(&settings, &brdfs, surfaces, |pixels| {
+            let on_gpu = GPU.storage("coefficients", &light).expect("it fits");
+            let mut reading = Reading::new(&GPU, &settings, &on_gpu, pixels).expect("kernels");
+            let times = reading.add().expect("a run");
+            passes.borrow_mut().extend(times.iter().map(|time| time.pass));
+            reading.outside().expect("a count")
+        });
+        (values, outside, passes.into_inner().contains(&"assemble"))
+    };
+    let few = surfaces(&brdfs);
+    let many = vec![few[0]; 400];
+    for (surfaces, is_sorted) in [(&few, false), (&many, true)] {
+        let (chosen, outside, sorted) = passes(Order::Chosen, surfaces);
+        assert_eq!(sorted, is_sorted);
+        let same = if is_sorted { Order::Sorted } else { Order::Plain };
+        let (values, same_outside, _) = passes(same, surfaces);
+        assert_eq!((chosen, outside), (values, same_outside));
+    }
+}

@@ -9,7 +9,7 @@ use manylights_harmonics::wgsl::{self, Function};
 use manylights_harmonics::zonal::TriangleForm;
 use manylights_interpolation::{
     self as interpolation, Grid, GridCoefficients, Held, Interpolation, ProjectionSettings,
-    ProjectionShader, SourceShader,
+    ProjectionShader, SourceShader, run_in_steps, vectors_of_grid,
 };
 use manylights_method::Parameters;
 use manylights_scene::AreaLight;
@@ -23,6 +23,9 @@ const CAPACITY: usize = 512;
 
 /// Lanes of a workgroup.
 const LANES: u32 = 64;
+
+/// Operations of a triangle at a vertex over the number of coefficients, about (`results/throughput/projection.md`).
+const OPERATIONS: usize = 500;
 
 /// As the shaders have it.
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -118,8 +121,8 @@ fn project_exactly(
     let inverses: Vec<f32> = projection.inverses().iter().map(|&value| value as f32).collect();
     let inverses = gpu.storage("inverses", &inverses)?;
     let channels = if gradients { 3 } else { 1 };
-    let size = (grid.count() * lobes as usize * bands * channels * size_of::<[f32; 4]>()) as u64;
-    let integrals = gpu.zeroed("zonal integrals", size)?;
+    let numbers = grid.count() * lobes as usize * bands * channels;
+    let integrals = vectors_of_grid(gpu, "zonal integrals", numbers)?;
     let [first, second] = linked_exact_projection(&projection, gradients)?;
     let layout = [Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
     let first = gpu.kernel("project", &first, &layout)?;
@@ -135,7 +138,8 @@ fn project_exactly(
         .map(|index| first.over_batch(index, [groups, lobes, 1]))
         .collect();
     dispatches.push(second.over([groups, count(bands) as u32, 1]));
-    let times = gpu.run(&dispatches)?;
+    let operations = OPERATIONS * grid.count() * CAPACITY * count(bands);
+    let times = run_in_steps(gpu, &dispatches, operations)?;
     Ok((result, times))
 }
 

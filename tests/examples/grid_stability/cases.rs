@@ -160,7 +160,14 @@ fn few_and_far() -> Vec<Case> {
             lights: vec![],
             ..case("no light at all", "Nothing is read, and nothing is there.")
         },
-        Case { vertices: 2, ..case("two vertices a side", "A single cell has no face within.") },
+        Case {
+            vertices: 2,
+            lights: fields::spheres().iter().map(|light| scaled(light, 4.0)).collect(),
+            ..case(
+                "two vertices a side, lights four times as far",
+                "A single cell has no face within.",
+            )
+        },
         Case {
             spread: 1.5,
             ..case(
@@ -174,9 +181,9 @@ fn few_and_far() -> Vec<Case> {
             lights: vec![sphere(Vec3::new(0.1, 0.05, 0.05), 0.01)],
             ..case(
                 "a flat box, 0.04 m high, a sphere of 0.01 m 0.03 m above it",
-                "Cells are 0.29 × 0.006 × 0.2 m. The light is outside two of them along y and taken for far, but a \
-                 tenth of a cell away along x: all schemes fail alike, as on floors that are seen to the horizon. \
-                 Such a grid should have fewer vertices along y and more along x.",
+                "Cells are 0.29 × 0.006 × 0.2 m, as no method makes them. The light is outside two of them along y, but a \
+                 tenth of a cell away along x: in the grid all schemes fail alike. It is near, since two of the \
+                 largest spacings count along all axes.",
             )
         },
     ]

@@ -26,7 +26,7 @@ impl Edges {
         name: "edges",
         formerly: None,
         introduced: None,
-        help: "of triangles that are integrated without approximation",
+        help: "of triangles that are integrated without approximation, not from a grid",
         kind: ParameterKind::Choice {
             default: "shared",
             words: &[

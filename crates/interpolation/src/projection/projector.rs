@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
-use manylights_gpu::{Buffer, Error, Gpu, Kernel, PassTime, Resource, UniformBatches};
+use manylights_gpu::{Buffer, Dispatch, Error, Gpu, Kernel, PassTime, Resource, UniformBatches};
 use manylights_harmonics::count;
 
 use super::shader::{LANES, ProjectionShader};
@@ -29,10 +29,45 @@ impl GridCoefficients {
     /// Where the adapter refuses the buffer.
     pub fn zero(gpu: &Gpu, grid: Grid<f32>, bands: usize, gradients: bool) -> Result<Self, Error> {
         let channels = if gradients { 3 } else { 1 };
-        let size = (grid.count() * count(bands) * channels * size_of::<[f32; 4]>()) as u64;
-        let buffer = gpu.zeroed("coefficients of a grid", size)?;
+        let numbers = grid.count() * count(bands) * channels;
+        let buffer = vectors_of_grid(gpu, "coefficients of a grid", numbers)?;
         Ok(Self { grid, bands, gradients, buffer })
     }
+}
+
+/// Operations of a light at a vertex over the number of coefficients, about (`results/throughput/projection.md`).
+const OPERATIONS: usize = 50;
+
+/// Operations in one submission, where a batch has fewer; a batch is never cut. Below a second on a slow processor, far
+/// below any watchdog on a fast one.
+const OPERATIONS_A_STEP: usize = 1 << 33;
+
+/// Passes one after the other, of so many operations each, in submissions that no watchdog ends.
+///
+/// # Errors
+/// Where the device gave up.
+pub fn run_in_steps(
+    gpu: &Gpu,
+    dispatches: &[Dispatch<'_>],
+    operations: usize,
+) -> Result<Vec<PassTime>, Error> {
+    let mut times = Vec::new();
+    for step in dispatches.chunks((OPERATIONS_A_STEP / operations.max(1)).max(1)) {
+        times.extend(gpu.run(step)?);
+    }
+    Ok(times)
+}
+
+/// So many `vec4f`, all zero, for the vertices of a grid.
+///
+/// # Errors
+/// Where the adapter refuses them: what makes fewer of them is said, even where they are to be packed afterwards.
+pub fn vectors_of_grid(gpu: &Gpu, label: &str, count: usize) -> Result<Buffer, Error> {
+    let remedy = |Error(reason)| match reason.split_once(": choose ") {
+        Some((what, _)) => Error(format!("{what}: choose a smaller grid or fewer bands")),
+        None => Error(reason),
+    };
+    gpu.zeroed(label, (count * size_of::<[f32; 4]>()) as u64).map_err(remedy)
 }
 
 /// As `shaders/vertices.wesl` has it.
@@ -109,8 +144,12 @@ impl Projector {
             Resource::Buffer(&self.coefficients.buffer),
         ];
         let pass = gpu.pass("project", &self.kernel, &resources)?;
-        let of_batch = |index| pass.over_batch(index, self.workgroups);
-        gpu.run(&(0..batches.counts().len()).map(of_batch).collect::<Vec<_>>())
+        let dispatches: Vec<_> = (0..batches.counts().len())
+            .map(|index| pass.over_batch(index, self.workgroups))
+            .collect();
+        let GridCoefficients { grid, bands, .. } = self.coefficients;
+        let operations = OPERATIONS * grid.count() * capacity * count(bands);
+        run_in_steps(gpu, &dispatches, operations)
     }
 }
 
