@@ -13,6 +13,7 @@ mod exr_layers;
 mod exr_window;
 mod false_color;
 mod file;
+mod flip;
 mod image;
 mod png_file;
 mod srgb;
@@ -21,7 +22,9 @@ mod ssim;
 /// Of the metrics: raised whenever the same pictures give other errors.
 pub const METRICS_VERSION: u32 = 1;
 
-pub use compare::{Errors, METRICS, MetricInfo, compare, compare_display, compare_linear};
+pub use compare::{
+    Errors, METRICS, MetricInfo, compare, compare_display, compare_linear, display_rmse,
+};
 pub use error::Error;
 pub use exr_file::read_exr_pair;
 pub use exr_layers::write_exr_layers;
