@@ -1,5 +1,9 @@
 //! What the tests of this package share: pictures by any method, and their references.
 
+pub mod gridded;
+pub mod page;
+pub mod processors;
+
 use std::sync::LazyLock;
 
 use glam::Vec3;

@@ -9,6 +9,7 @@ mod convergence;
 mod documents;
 mod dummy_method;
 mod findings;
+mod grid_orders;
 mod harmonics_wgsl;
 mod import_circles;
 mod integrating_sphere;

@@ -97,14 +97,14 @@ fn components(vectors: impl IntoIterator<Item = Vec3>) -> Vec<f64> {
     vectors.into_iter().flat_map(|vector| vector.to_array()).map(f64::from).collect()
 }
 
-/// At its default parameters, as its source shades: one indirect bounce of point-like lights, or else direct
+/// At its default parameters, as its source shades, and from a grid where it has one: one indirect bounce of point-like lights, or else direct
 /// light of those with a surface.
 fn of_method(method: &dyn Method) -> Sketch {
     let visibility = method.visibility();
     let indirect = Transport::Indirect { bounces: 1, visibility };
     let scenes = SCENES.map(|scene| manylights_scene::load(scene, None).expect("built in"));
     let bounced: Option<Vec<_>> =
-        scenes.map(|scene| picture(method, scene, indirect)).into_iter().collect();
+        scenes.map(|scene| picture(method, scene, indirect, &[])).into_iter().collect();
     let own = ("method", method.version());
     let [placement, shaders, tables] = shared();
     match (bounced, method.processor()) {
@@ -115,8 +115,17 @@ fn of_method(method: &dyn Method) -> Sketch {
         (None, _) => {
             let direct = Transport::Direct { visibility };
             let scenes = [under_spheres(5), under_triangles(5)];
-            let numbers: Vec<_> =
-                scenes.into_iter().filter_map(|scene| picture(method, scene, direct)).collect();
+            let has_grid = method.parameters().iter().any(|info| info.name == "interpolation");
+            // So fine that not all lights are near it.
+            let gridded: &[_] = &[("interpolation", "hermite"), ("grid", "24")];
+            let settings = [Some(&[][..]), has_grid.then_some(gridded)];
+            let pictures = scenes.iter().flat_map(|scene| {
+                settings
+                    .iter()
+                    .flatten()
+                    .filter_map(|settings| picture(method, scene.clone(), direct, settings))
+            });
+            let numbers: Vec<_> = pictures.collect();
             assert!(!numbers.is_empty(), "{} declines all", method.id());
             let numbers = numbers.concat();
             let area_lights = ("area_lights", AREA_LIGHTS_VERSION);
@@ -126,9 +135,14 @@ fn of_method(method: &dyn Method) -> Sketch {
 }
 
 /// `None` where the method declines.
-fn picture(method: &dyn Method, scene: Scene, transport: Transport) -> Option<Vec<f64>> {
+fn picture(
+    method: &dyn Method,
+    scene: Scene,
+    transport: Transport,
+    settings: &[(&'static str, &'static str)],
+) -> Option<Vec<f64>> {
     let stage = Stage::new(scene, RESOLUTION);
-    let mut run = match stage.prepare(method, &[], transport, 1) {
+    let mut run = match stage.prepare(method, settings, transport, 1) {
         Ok(run) => run,
         Err(Error::Declined(_)) => return None,
         Err(error) => panic!("{}: {error}", method.id()),

@@ -1,88 +1,15 @@
 //! What methods on lights with a surface have in common, but for the estimator.
 
+use manylights_interpolation::{Held, Interpolation, LightGrid, Lit};
 use manylights_method::{
     Bake, Baking, Cost, CounterInfo, Dependencies, Direction, Error, Frame, Method, ParameterInfo,
     Parameters, PassTime, Processor, Run,
 };
-use manylights_scene::{AreaLight, Visibility};
+use manylights_scene::Visibility;
 
+use crate::estimator::{BANDS, Estimator, Project, SceneTables};
 use crate::frame::AreaLightFrame;
-
-/// The name of the parameter that time and accuracy grow with.
-pub const BANDS: &str = "bands";
-
-/// What every run counts first.
-pub const LIGHTS: CounterInfo = CounterInfo { name: "lights", help: "that were gathered" };
-
-/// What a light with a surface contributes to a pixel, on the adapter. All else is alike for all of them,
-/// and [`AreaLights`] makes them a [`Method`] of it: direct light of all lights at every pixel, without
-/// shadows; time and accuracy grow with the parameter [`BANDS`]; nothing is left to chance; and half of
-/// the lights is half of the light, so that only the last picture estimates anything.
-pub trait Estimator: Sync + 'static {
-    /// As [`Method::id`].
-    const ID: &'static str;
-    /// As [`Method::title`].
-    const TITLE: &'static str;
-    /// As [`Method::version`].
-    const VERSION: u32;
-    /// As [`Method::parameters`], [`BANDS`] among them.
-    const PARAMETERS: &'static [ParameterInfo];
-    /// The kind of light that it takes, in the plural.
-    const TAKES: &'static str;
-    /// As [`Method::counters`].
-    const COUNTERS: &'static [CounterInfo] = &[LIGHTS];
-    /// What it bakes.
-    type Tables: SceneTables;
-
-    /// Whether a light is of that kind.
-    fn takes(light: &AreaLight) -> bool;
-
-    /// As [`Bake::prepare`], for a frame whose lights are of its kind: an
-    /// [`AreaLightRun`](crate::AreaLightRun) over records of all of them.
-    ///
-    /// # Errors
-    /// [`Error::Declined`] with a reason where the scene is not the method's.
-    fn start<'a>(
-        frame: AreaLightFrame<'a>,
-        parameters: &Parameters,
-        tables: &Self::Tables,
-    ) -> Result<Box<dyn Run + 'a>, Error>;
-}
-
-/// What an estimator tabulates of the materials of a scene and of its own formulas, and what else it bakes.
-pub trait SceneTables: Sized + 'static {
-    /// Makes all of them anew.
-    ///
-    /// # Errors
-    /// [`Error::Declined`] with a reason where the scene is not the method's.
-    fn new(frame: &AreaLightFrame<'_>, parameters: &Parameters) -> Result<Self, Error>;
-
-    /// How many tables were made.
-    fn count(&self) -> u64;
-
-    /// As [`Baking::depends_on`]; of tables alone the scene and the amount.
-    fn depends_on(_: &Parameters) -> Dependencies {
-        Dependencies { scene: true, amount: true, ..Dependencies::default() }
-    }
-
-    /// As [`Baking::processor`].
-    fn processor(_: &Parameters) -> Processor {
-        Processor::Cpu
-    }
-
-    /// As [`Bake::grow`].
-    ///
-    /// # Errors
-    /// As there.
-    fn grow(&mut self, _: &AreaLightFrame<'_>, _: &Parameters) -> Result<(), Error> {
-        Ok(())
-    }
-
-    /// As [`Bake::pass_times`].
-    fn pass_times(&self) -> Vec<PassTime> {
-        Vec::new()
-    }
-}
+use crate::run::{AreaLightRun, COUNTERS, GRID_COUNTERS};
 
 /// The method of an estimator.
 #[derive(Clone, Copy, Debug)]
@@ -110,7 +37,7 @@ impl<M: Estimator> Method for AreaLights<M> {
     }
 
     fn counters(&self) -> &'static [CounterInfo] {
-        M::COUNTERS
+        if M::PROJECT.is_some() { &GRID_COUNTERS } else { &COUNTERS }
     }
 
     fn cost(&self) -> Option<Cost> {
@@ -145,11 +72,12 @@ impl<M: Estimator> Method for AreaLights<M> {
 
 impl<M: Estimator> Baking for AreaLights<M> {
     fn depends_on(&self, parameters: &Parameters) -> Dependencies {
-        M::Tables::depends_on(parameters)
+        let tables = Dependencies { scene: true, amount: true, ..Dependencies::default() };
+        projection::<M>(parameters).map_or(tables, |(how, _)| how.depends_on())
     }
 
     fn processor(&self, parameters: &Parameters) -> Processor {
-        M::Tables::processor(parameters)
+        projection::<M>(parameters).map_or(Processor::Cpu, |_| Processor::Gpu)
     }
 
     fn counters(&self) -> &'static [CounterInfo] {
@@ -158,8 +86,15 @@ impl<M: Estimator> Baking for AreaLights<M> {
 
     fn bake(&self, frame: &Frame<'_>, parameters: &Parameters) -> Result<Box<dyn Bake>, Error> {
         let frame = frame_of::<M>(frame)?;
-        Ok(Box::new(Baked::<M>(M::Tables::new(&frame, parameters)?)))
+        let tables = M::tables(frame.on_gpu.gpu(), frame.scene, parameters)?;
+        let grid = light_grid::<M>(&frame, parameters)?;
+        Ok(Box::new(Baked { estimator: std::marker::PhantomData::<M>, tables, grid }))
     }
+}
+
+/// Where these parameters ask for a grid.
+fn projection<M: Estimator>(parameters: &Parameters) -> Option<(Interpolation, Project)> {
+    M::PROJECT.and_then(|project| Some((Interpolation::new(parameters)?, project)))
 }
 
 /// A frame whose lights are all of the estimator's kind.
@@ -176,8 +111,25 @@ fn frame_of<'a, M: Estimator>(frame: &Frame<'a>) -> Result<AreaLightFrame<'a>, E
     )))
 }
 
-/// The tables of an estimator.
-struct Baked<M: Estimator>(M::Tables);
+/// What a grid holds of a picture.
+fn light_grid<M: Estimator>(
+    frame: &AreaLightFrame<'_>,
+    parameters: &Parameters,
+) -> Result<Option<LightGrid>, Error> {
+    let Some((how, project)) = projection::<M>(parameters) else { return Ok(None) };
+    let AreaLightFrame { scene, on_gpu, pixels, ref lights, .. } = *frame;
+    let gpu = on_gpu.gpu();
+    let lit = Lit { gpu, scene, surfaces: (on_gpu.surfaces(), pixels), lights };
+    let project = |grid, held: &Held<'_>| project(gpu, grid, how, parameters, held);
+    Ok(Some(LightGrid::new(how, &lit, project)?))
+}
+
+/// What further frames reuse.
+struct Baked<M> {
+    estimator: std::marker::PhantomData<M>,
+    tables: SceneTables,
+    grid: Option<LightGrid>,
+}
 
 impl<M: Estimator> Bake for Baked<M> {
     fn prepare<'a>(
@@ -185,18 +137,26 @@ impl<M: Estimator> Bake for Baked<M> {
         frame: &Frame<'a>,
         parameters: &Parameters,
     ) -> Result<Box<dyn Run + 'a>, Error> {
-        M::start(frame_of::<M>(frame)?, parameters, &self.0)
+        let (frame, grid) = (frame_of::<M>(frame)?, self.grid.as_ref());
+        let lights = grid.map_or(&frame.lights[..], LightGrid::near);
+        let gathering = M::gather(frame.scene, lights, parameters)?;
+        Ok(Box::new(AreaLightRun::new(&frame, &self.tables.on_gpu, gathering, grid)?))
     }
 
     fn grow(&mut self, frame: &Frame<'_>, parameters: &Parameters) -> Result<(), Error> {
-        self.0.grow(&frame_of::<M>(frame)?, parameters)
+        let mut next = light_grid::<M>(&frame_of::<M>(frame)?, parameters)?;
+        if let (Some(next), Some(before)) = (&mut next, &self.grid) {
+            next.follow(before);
+        }
+        self.grid = next;
+        Ok(())
     }
 
     fn counters(&self) -> Vec<(&'static str, u64)> {
-        vec![("tables", self.0.count())]
+        vec![("tables", self.tables.count)]
     }
 
     fn pass_times(&self) -> Vec<PassTime> {
-        self.0.pass_times()
+        self.grid.as_ref().map_or(Vec::new(), LightGrid::pass_times)
     }
 }

@@ -1,4 +1,4 @@
-//! What estimators are told of a picture.
+//! The pictures that estimators make.
 
 use glam::Vec3;
 use manylights_gpu::GpuFrame;
@@ -6,17 +6,17 @@ use manylights_method::{Error, Frame};
 use manylights_scene::{AreaLight, Scene, Transport, Visibility};
 
 /// A frame that lights with a surface alone light, without shadows.
-pub struct AreaLightFrame<'a> {
+pub(crate) struct AreaLightFrame<'a> {
     /// As [`Frame::scene`].
-    pub scene: &'a Scene,
+    pub(crate) scene: &'a Scene,
     /// Of the camera.
-    pub eye: Vec3,
+    pub(crate) eye: Vec3,
     /// As [`Frame::gpu`].
-    pub on_gpu: &'a GpuFrame,
+    pub(crate) on_gpu: &'a GpuFrame,
     /// Number of pixels.
-    pub pixels: u32,
+    pub(crate) pixels: u32,
     /// All of the scene, one or more.
-    pub lights: Vec<AreaLight>,
+    pub(crate) lights: Vec<AreaLight>,
 }
 
 impl<'a> AreaLightFrame<'a> {

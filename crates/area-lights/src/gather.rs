@@ -27,6 +27,21 @@ impl LightBatches {
     }
 }
 
+/// Records of lights, whatever a kernel wants of them.
+pub trait LightRecords {
+    /// As [`AreaGather::batches`].
+    ///
+    /// # Errors
+    /// As there.
+    fn batches(&self, gather: &AreaGather) -> Result<LightBatches, Error>;
+}
+
+impl<R: Pod> LightRecords for Vec<R> {
+    fn batches(&self, gather: &AreaGather) -> Result<LightBatches, Error> {
+        gather.batches(self)
+    }
+}
+
 /// As `shaders/gather.wesl` has it.
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
@@ -64,7 +79,7 @@ impl AreaGather {
     }
 
     /// Records a batch.
-    pub fn capacity(&self) -> usize {
+    pub(crate) fn capacity(&self) -> usize {
         self.capacity
     }
 

@@ -50,11 +50,26 @@ impl Gpu {
             self.device().create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
                 size: size.max(16),
-                usage: usage | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+                usage: usage
+                    | wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::COPY_SRC
+                    | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             })
         })?;
         Ok(Buffer { raw })
+    }
+
+    /// Sets a buffer that was made of zeros to zeros again, after all work before.
+    ///
+    /// # Errors
+    /// Where the device was lost.
+    pub fn clear(&self, buffer: &Buffer) -> Result<(), Error> {
+        self.checked("clear", || {
+            let mut encoder = self.device().create_command_encoder(&Default::default());
+            encoder.clear_buffer(&buffer.raw, 0, None);
+            self.shared.queue.submit([encoder.finish()]);
+        })
     }
 
     /// A uniform buffer with the given contents.

@@ -10,6 +10,7 @@ mod polynomial;
 mod solid_angle;
 mod spherical;
 
-pub use polynomial::Polynomials;
+pub use polynomial::{POLYNOMIAL_BANDS, Polynomials};
+pub(crate) use polynomial::{binomial, zonal_part};
 pub use solid_angle::{arvo, oosterom_of_units};
 pub use spherical::{SphericalGradients, to_cartesian};

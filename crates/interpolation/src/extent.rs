@@ -42,7 +42,7 @@ impl Interpolation {
         let side = if largest > 0.0 { largest } else { 1.0 };
         let missing = (LEAST_SIDE * side - (most - least)).max(Vec3::ZERO);
         let corners = [least - 0.5 * missing, most + 0.5 * missing].map(|corner| corner.to_array());
-        Ok(Grid::over(corners, [self.vertices; 3]))
+        Ok(Grid::of_cubes(corners, self.vertices))
     }
 }
 

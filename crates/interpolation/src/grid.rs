@@ -39,6 +39,28 @@ impl<R: Real> Grid<R> {
         Self { origin: least, spacing, vertices }
     }
 
+    /// Over the box between two corners, in all at most the cube of `vertices`, so spread that cells are near to
+    /// cubes: the axis with the largest spacing gets one more as long as they fit. No other numbers have a
+    /// smaller largest spacing; a cube has so many along each axis.
+    ///
+    /// # Panics
+    /// As [`over`](Self::over).
+    pub fn of_cubes([least, most]: [[R; 3]; 2], vertices: usize) -> Self {
+        let sides = [0, 1, 2].map(|i| (most[i] - least[i]).to_f64());
+        let spacing = |axis: usize, count: usize| sides[axis] / (count - 1) as f64;
+        let mut counts = [2; 3];
+        loop {
+            let all: usize = counts.iter().product();
+            let fits = |axis: &usize| all / counts[*axis] * (counts[*axis] + 1) <= vertices.pow(3);
+            let wider =
+                |a: &usize, b: &usize| spacing(*a, counts[*a]).total_cmp(&spacing(*b, counts[*b]));
+            let Some(widest) = [0, 1, 2].into_iter().filter(fits).max_by(wider) else {
+                return Self::over([least, most], counts);
+            };
+            counts[widest] += 1;
+        }
+    }
+
     /// Number of vertices.
     pub fn count(&self) -> usize {
         self.vertices.iter().product()

@@ -7,13 +7,17 @@ use manylights_method::PassTimes;
 use manylights_reflectance::ReceiverKinds;
 use manylights_scene::{AreaLight, Scene};
 
-use crate::{Grid, GridCoefficients, GridPart, Interpolation, Pixels, Reach, Reading, Settings};
+use crate::{
+    Grid, GridCoefficients, Interpolation, Near, Pixels, Reach, Reading, Settings, Storage, pack,
+};
 
 /// Coefficients of the lights that are far from the vertices of a grid, on the adapter, and the others.
 pub struct LightGrid {
     how: Interpolation,
+    /// As `how` stores them.
     coefficients: GridCoefficients,
     near: Vec<AreaLight>,
+    smoothed: usize,
     times: PassTimes,
 }
 
@@ -29,6 +33,14 @@ pub struct Lit<'a> {
     pub lights: &'a [AreaLight],
 }
 
+/// What a grid holds.
+pub struct Held<'a> {
+    /// As they are.
+    pub far: &'a [AreaLight],
+    /// Smoothed.
+    pub near: &'a [AreaLight],
+}
+
 impl LightGrid {
     /// `project` makes coefficients of lights at the vertices of a grid.
     ///
@@ -37,22 +49,36 @@ impl LightGrid {
     pub fn new(
         how: Interpolation,
         lit: &Lit<'_>,
-        project: impl Fn(Grid<f32>, &[AreaLight]) -> Result<(GridCoefficients, Vec<PassTime>), Error>,
+        project: impl Fn(Grid<f32>, &Held<'_>) -> Result<(GridCoefficients, Vec<PassTime>), Error>,
     ) -> Result<Self, Error> {
         let start = Instant::now();
         let grid = how.grid(lit.gpu, lit.scene, lit.surfaces)?;
         let reach = Reach::new(&grid);
         let (near, far): (Vec<_>, Vec<_>) =
             lit.lights.iter().copied().partition(|light| reach.meets(light));
-        let (coefficients, passes) = project(grid, &far)?;
+        let (near, smoothed) = match how.near {
+            Near::Apart => (near, Vec::new()),
+            Near::Smoothed => (Vec::new(), near),
+        };
+        let (mut coefficients, mut passes) = project(grid, &Held { far: &far, near: &smoothed })?;
+        if how.storage == Storage::Packed {
+            let (packed, pass) = pack(lit.gpu, &coefficients)?;
+            coefficients.buffer = packed;
+            passes.extend(pass);
+        }
         let mut times = PassTimes::default();
         times.add(&passes, "prepare grid", start);
-        Ok(Self { how, coefficients, near, times })
+        Ok(Self { how, coefficients, near, smoothed: smoothed.len(), times })
     }
 
     /// Lights that must be met at each pixel.
     pub fn near(&self) -> &[AreaLight] {
         &self.near
+    }
+
+    /// Near lights that the grid holds smoothed; `None` where it holds none of them.
+    pub fn smoothed(&self) -> Option<usize> {
+        (self.how.near == Near::Smoothed).then_some(self.smoothed)
     }
 
     /// The time of each pass.
@@ -65,21 +91,19 @@ impl LightGrid {
         self.times.merge(&before.times);
     }
 
-    /// What a picture of so many lights reads of it.
+    /// What a picture reads of it.
     ///
     /// # Errors
     /// Where the adapter refuses a kernel or a buffer.
-    pub fn part(
+    pub fn reading(
         &self,
         gpu: &Gpu,
         kinds: ReceiverKinds,
         pixels: &Pixels<'_>,
-        lights: usize,
-    ) -> Result<GridPart, Error> {
+    ) -> Result<Reading, Error> {
         let GridCoefficients { grid, bands, ref buffer, .. } = self.coefficients;
-        let Interpolation { scheme, order, .. } = self.how;
-        let settings = Settings { grid, scheme, bands, kinds, order };
-        let reading = Reading::new(gpu, &settings, buffer, pixels)?;
-        Ok(GridPart::new(reading, lights, self.near.len()))
+        let Interpolation { scheme, order, storage, .. } = self.how;
+        let settings = Settings { grid, scheme, bands, kinds, order, storage };
+        Reading::new(gpu, &settings, buffer, pixels)
     }
 }

@@ -5,11 +5,11 @@ use manylights_scene::AreaLight;
 
 use crate::Grid;
 
-/// Cells around a grid within which no scheme follows a light: at one and a half every scheme fails, at two
-/// Hermite is 7 % off.
+/// Largest spacings around a grid within which no scheme follows a light: at one and a half every scheme fails, at
+/// two Hermite is 7 % off. The largest counts along every axis, since a light above a flat grid varies along it.
 const CELLS: f64 = 2.0;
 
-/// The box of a grid and of two cells around it.
+/// The box of a grid and what is within two of its largest spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
     least: DVec3,
@@ -21,7 +21,8 @@ impl Reach {
     pub fn new(grid: &Grid<f32>) -> Self {
         let [origin, spacing] = [grid.origin, grid.spacing].map(|v| DVec3::from(v.map(f64::from)));
         let cells = DVec3::from(grid.vertices.map(|count| (count - 1) as f64));
-        Self { least: origin - CELLS * spacing, most: origin + (cells + CELLS) * spacing }
+        let around = CELLS * spacing.max_element();
+        Self { least: origin - around, most: origin + cells * spacing + around }
     }
 
     /// Whether a light reaches into it; of a triangle its box decides.

@@ -1,8 +1,9 @@
 //! What methods that interpolate are told.
 
+use manylights_harmonics::wgsl::order::Evaluation;
 use manylights_method::{ChoiceWord, Dependencies, ParameterInfo, ParameterKind, Parameters};
 
-use crate::{Loops, Order, Scheme};
+use crate::{Loops, Order, ProjectionSettings, Scheme, Storage};
 
 /// Where the grid lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,12 +14,21 @@ pub enum Bounds {
     Scene,
 }
 
+/// What becomes of lights within reach of the grid ([`Reach`](crate::Reach)).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Near {
+    /// Each is met at each pixel.
+    Apart,
+    /// The grid holds them, too, smoothed to what its spacing shows.
+    Smoothed,
+}
+
 /// The parameters by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Interpolation {
     /// Between vertices.
     pub scheme: Scheme,
-    /// Along each side.
+    /// As [`Grid::of_cubes`](crate::Grid::of_cubes) has it.
     pub vertices: usize,
     /// Where they lie.
     pub bounds: Bounds,
@@ -26,6 +36,10 @@ pub struct Interpolation {
     pub loops: Loops,
     /// In which pixels are read.
     pub order: Order,
+    /// Of lights near the grid.
+    pub near: Near,
+    /// Of the coefficients.
+    pub storage: Storage,
 }
 
 const NONE: &str = "none";
@@ -71,7 +85,8 @@ impl Interpolation {
         name: "grid",
         formerly: None,
         introduced: Some("8"),
-        help: "vertices along each side of the grid",
+        help: "vertices along each side of a cube; of another box their cube is the most in all, spread so that \
+               cells are near to cubes",
         kind: ParameterKind::Count { default: 8, min: 2, max: 64 },
     };
 
@@ -125,19 +140,65 @@ impl Interpolation {
         },
     };
 
+    /// Lights near the grid.
+    pub const NEAR: ParameterInfo = ParameterInfo {
+        name: "near",
+        formerly: None,
+        introduced: Some("apart"),
+        help: "lights within two cells of the grid",
+        kind: ParameterKind::Choice {
+            default: "apart",
+            words: &[
+                ChoiceWord { word: "apart", help: "are met at each pixel" },
+                ChoiceWord {
+                    word: "smoothed",
+                    help: "are discs of at least half a cell's radius in the grid, of the same power",
+                },
+            ],
+        },
+    };
+
+    /// The numbers at vertices.
+    pub const STORAGE: ParameterInfo = ParameterInfo {
+        name: "storage",
+        formerly: None,
+        introduced: Some("f32"),
+        help: "of the coefficients at the vertices of the grid",
+        kind: ParameterKind::Choice {
+            default: "f32",
+            words: &[
+                ChoiceWord { word: "f32", help: "single precision" },
+                ChoiceWord {
+                    word: "packed",
+                    help: "values in half precision, gradients in 8 bits: a third of the bytes",
+                },
+            ],
+        },
+    };
+
     /// `None` where every light is met at every pixel.
     pub fn new(parameters: &Parameters) -> Option<Self> {
         let scheme = parameters.choice(Self::SCHEME.name, &SCHEMES)?;
         let bounds = [("view", Bounds::View), ("scene", Bounds::Scene)];
         let loops = [("forward", Loops::Forward), ("reverse", Loops::Reverse)];
+        let near = [("apart", Near::Apart), ("smoothed", Near::Smoothed)];
         let order = [("plain", Order::Plain), ("sorted", Order::Sorted)];
+        let storage = [("f32", Storage::F32), ("packed", Storage::Packed)];
         Some(Self {
             scheme,
             vertices: parameters.count(Self::GRID.name) as usize,
             bounds: parameters.choice(Self::BOUNDS.name, &bounds),
             loops: parameters.choice(Self::LOOPS.name, &loops),
             order: parameters.choice(Self::READING.name, &order),
+            near: parameters.choice(Self::NEAR.name, &near),
+            storage: parameters.choice(Self::STORAGE.name, &storage),
         })
+    }
+
+    /// The projection: by the recurrence, which keeps more digits than polynomials.
+    pub fn projection(&self) -> ProjectionSettings {
+        let gradients = self.scheme.reads_gradients();
+        ProjectionSettings { gradients, loops: self.loops, evaluation: Evaluation::Recurrence }
     }
 
     /// What coefficients at vertices depend on.

@@ -55,6 +55,13 @@ impl Reading {
         }
     }
 
+    /// Says that the surfaces of the pixels have changed: they are sorted again.
+    pub fn move_surfaces(&mut self) {
+        if let Way::Sorted(sorted) = &mut self.way {
+            sorted.forget_order();
+        }
+    }
+
     /// How often a pixel was read whose point is outside of the grid: the nearest point of the grid stands for it.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! WGSL whose length depends on the bands: a pixel's lobe in the world's frame, and what it makes of a corner.
+//! The WGSL of a pixel's lobe in the world's frame, whose length depends on the bands.
 //! Straight lines, since an index that is not known while compiling would keep the lobe out of registers.
 
 use std::f64::consts::PI;
@@ -60,59 +60,4 @@ pub(crate) fn world_lobe(bands: usize, kinds: ReceiverKinds) -> String {
             lobes.iter().map(spread).collect::<String>(),
             values.join(",\n        "),
         )
-}
-
-/// A module with, for P pixels, `corner_radiance(lobe0: array<E, N>, …, place: u32, weights0, …) -> array<vec3f,
-/// P>`: what their lobes make of a corner, where `source[place].values` are its coefficients. The weights meet sums
-/// over all coefficients, not each of them, and channels follow each other, so that few sums are held at a time.
-pub(crate) fn corner(
-    bands: usize,
-    kinds: ReceiverKinds,
-    gradients: bool,
-    (source, pixels): (&str, usize),
-) -> String {
-    let size = count(bands);
-    let element = if kinds.specular { "vec3f" } else { "f32" };
-    let lobes = diffuse::lobes(bands, Damping::None);
-    // Of a Lambertian lobe most odd bands vanish.
-    let used: Vec<_> = (0..size).filter(|i| kinds.specular || lobes[i.isqrt()][0] != 0.0).collect();
-    let (variable, field) = source.split_once('.').unwrap_or((source, ""));
-    let dot = if field.is_empty() { "" } else { "." };
-    let at = |i: usize| format!("{variable}{dot}{field}[place].values[{i}]");
-    let each = |text: &dyn Fn(usize) -> String| (0..pixels).map(text).collect::<String>();
-    let mut body = String::new();
-    let kind = if gradients { "vec4f" } else { "f32" };
-    if gradients {
-        for (channel, name) in ["red", "green", "blue"].into_iter().enumerate() {
-            body += &each(&|p| format!("    var {name}{p} = vec4f();\n"));
-            for &i in &used {
-                let lobe = |p: usize| match kinds.specular {
-                    true => format!("lobe{p}[{i}][{channel}]"),
-                    false => format!("lobe{p}[{i}]"),
-                };
-                body += &format!("    let {name}_{i} = {};\n", at(3 * i + channel));
-                body += &each(&|p| format!("    {name}{p} += {} * {name}_{i};\n", lobe(p)));
-            }
-        }
-    } else {
-        body += &each(&|p| format!("    var sum{p} = vec3f();\n"));
-        for &i in &used {
-            body += &format!("    let value_{i} = {}.xyz;\n", at(i));
-            body += &each(&|p| format!("    sum{p} += lobe{p}[{i}] * value_{i};\n"));
-        }
-    }
-    let value = |p: usize| match gradients {
-        true => format!(
-            "        vec3f(dot(weights{p}, red{p}), dot(weights{p}, green{p}), dot(weights{p}, blue{p})),\n"
-        ),
-        false => format!("        weights{p} * sum{p},\n"),
-    };
-    format!(
-        "import package::bindings::{variable};\n\n\
-         fn corner_radiance(\n{}    place: u32,\n{}) -> array<vec3f, {pixels}> {{\n\
-         {body}    return array<vec3f, {pixels}>(\n{}    );\n}}\n",
-        each(&|p| format!("    lobe{p}: array<{element}, {size}>,\n")),
-        each(&|p| format!("    weights{p}: {kind},\n")),
-        each(&value),
-    )
 }

@@ -3,6 +3,7 @@
 use manylights_harmonics::count;
 use manylights_reflectance::ReceiverKinds;
 
+use crate::packed_layout::PackedLayout;
 use crate::{Grid, Scheme};
 
 /// Guaranteed bytes of a uniform binding.
@@ -21,6 +22,18 @@ pub struct Settings {
     pub kinds: ReceiverKinds,
     /// In which pixels are read.
     pub order: Order,
+    /// Of the coefficients that are read.
+    pub storage: Storage,
+}
+
+/// How numbers at the vertices are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Single precision.
+    F32,
+    /// Values in half precision over a scale, derivatives in 8 bits ([`pack`](crate::pack)): a third of the bytes with
+    /// gradients, half without.
+    Packed,
 }
 
 /// In which pixels are read.
@@ -34,7 +47,7 @@ pub enum Order {
 }
 
 impl Settings {
-    /// Of a vertex, each a `vec4f`, in the frame of the world. With gradients three for each of bands²
+    /// Of a vertex in single precision, each a `vec4f`, in the frame of the world. With gradients three for each of bands²
     /// coefficients, one a channel: the value, and its three derivatives times the grid's spacing. Without them
     /// one, of red, green, blue and nothing. Vertices are in the order of the grid.
     pub fn vectors(&self) -> usize {
@@ -42,14 +55,26 @@ impl Settings {
         each * count(self.bands)
     }
 
-    /// Whether pixels are sorted: up to 13 bands with gradients, whatever their number without.
+    /// Of a vertex as [`Settings::storage`] keeps it, 16 bytes each.
+    pub fn stored_vectors(&self) -> usize {
+        match self.storage {
+            Storage::F32 => self.vectors(),
+            Storage::Packed => self.packed().vectors,
+        }
+    }
+
+    pub(crate) fn packed(&self) -> PackedLayout {
+        PackedLayout::new(self.bands, self.scheme.reads_gradients())
+    }
+
+    /// Whether pixels are sorted: in single precision up to 13 bands with gradients, else whatever their number.
     pub fn is_sorted(&self) -> bool {
         self.order == Order::Sorted && self.block_bytes() <= UNIFORM_BYTES
     }
 
     /// Of a cell with its eight corners, as uniform memory holds it.
     pub(crate) fn block_bytes(&self) -> usize {
-        16 * (1 + 8 * self.vectors())
+        16 * (1 + 8 * self.stored_vectors())
     }
 
     /// Of those that are sorted. The more, the more often a number that is loaded is used, and the longer the

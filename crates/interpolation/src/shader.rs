@@ -8,7 +8,7 @@ use manylights_reflectance::{Damping, Form, LOBES, MODULES, SHAPES, diffuse, lob
 
 use crate::sorted_wgsl::sorted_entry;
 use crate::view::VIEW;
-use crate::{Scheme, Settings, reading_wgsl};
+use crate::{Scheme, Settings, Storage, corner_wgsl, reading_wgsl};
 
 /// Lanes of a workgroup: few, since several pixels a lane of each cell are rounded up to whole workgroups.
 pub(crate) const LANES: u32 = 32;
@@ -61,7 +61,7 @@ impl Shader {
             ("diffuse", diffuse::module(bands, Damping::None)),
             ("lobe", lobe_wgsl::module(bands, Form::Full)),
             ("world_lobe", reading_wgsl::world_lobe(bands, kinds)),
-            ("corner", reading_wgsl::corner(bands, kinds, gradients, source)),
+            ("corner", corner_wgsl::corner(settings, source)),
         ];
         let mut modules: Vec<_> = made.iter().map(|(name, text)| (*name, &**text)).collect();
         modules.extend(MODULES);
@@ -117,7 +117,8 @@ impl Shader {
             (Binding::Storage, "cells: array<vec4u>"),
             (Binding::StorageMut, "blocks: array<vec4u>"),
         ];
-        let size = format!("const STRIDE = {stride}u;\nconst VECTORS = {}u;\n", settings.vectors());
+        let size =
+            format!("const STRIDE = {stride}u;\nconst VECTORS = {}u;\n", settings.stored_vectors());
         let entry = include_str!("shaders/assemble.wesl");
         let wgsl = linked(settings, ("assemble", entry), &bindings, &[("block_size", &size)], &[])?;
         Ok(Self { wgsl, name: "assemble", bindings: layout(&bindings) })
@@ -156,11 +157,15 @@ fn declarations(settings: &Settings, bindings: &[(Binding, &str)]) -> String {
         format!("@group(0) @binding({number}) var<{space}> {variable};\n")
     };
     let variables: String = bindings.iter().enumerate().map(variable).collect();
+    let element = match settings.storage {
+        Storage::F32 => "vec4f",
+        Storage::Packed => "vec4u",
+    };
     format!(
         "import package::surface::Surface;\n\n{VIEW}\n\
-         struct Vertex {{\n    values: array<vec4f, {}>,\n}}\n\n\
+         struct Vertex {{\n    values: array<{element}, {}>,\n}}\n\n\
          struct Block {{\n    cell: vec3u,\n    first: u32,\n    corners: array<Vertex, 8>,\n}}\n\n\
          {variables}",
-        settings.vectors()
+        settings.stored_vectors()
     )
 }

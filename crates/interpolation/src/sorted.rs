@@ -12,7 +12,7 @@ use crate::{Pixels, Settings};
 /// Blocks of cells that are held at a time.
 const BLOCKS_BYTES: usize = 1 << 26;
 
-/// What reads pixels cell by cell: their order is found anew each time.
+/// What reads pixels cell by cell: their order is found at the first time.
 pub(crate) struct Sorted {
     cells: [u32; 3],
     block_bytes: usize,
@@ -29,6 +29,15 @@ pub(crate) struct Sorted {
     tables: Vec<Buffer>,
     /// Of each pixel among those of its cell.
     places: Buffer,
+    order: Option<Order>,
+    outside: u32,
+}
+
+/// The pixels sorted by cell.
+struct Order {
+    layout: Layout,
+    /// Their numbers.
+    pixels: Buffer,
     outside: u32,
 }
 
@@ -86,6 +95,7 @@ impl Sorted {
             results: pixels.results.clone(),
             tables: pixels.tables.to_vec(),
             places: gpu.zeroed("places of pixels", 4 * u64::from(pixels.count))?,
+            order: None,
             outside: 0,
         })
     }
@@ -95,24 +105,39 @@ impl Sorted {
         self.outside
     }
 
+    /// Sorts pixels again the next time.
+    pub(crate) fn forget_order(&mut self) {
+        self.order = None;
+    }
+
     pub(crate) fn add(&mut self, gpu: &Gpu) -> Result<Vec<PassTime>, Error> {
+        let (order, mut times) = match self.order.take() {
+            Some(order) => (order, Vec::new()),
+            None => self.sort(gpu)?,
+        };
+        self.outside += order.outside;
+        let most = BLOCKS_BYTES / self.block_bytes;
+        let Layout { cells, pixels, .. } = &order.layout;
+        for (cells, pixels) in cells.chunks(most).zip(pixels.chunks(most)) {
+            times.extend(self.read(gpu, &order.pixels, cells, pixels)?);
+        }
+        self.order = Some(order);
+        Ok(times)
+    }
+
+    fn sort(&self, gpu: &Gpu) -> Result<(Order, Vec<PassTime>), Error> {
         let cells = self.cells.into_iter().product::<u32>() as usize;
         // The pixels of each cell, and those outside.
         let counts = gpu.zeroed("pixels of cells", 4 * (cells as u64 + 1))?;
         let count = self.pass(gpu, "sort", &self.count, &[&self.places, &counts])?;
         let mut times = gpu.run(&[count.over(self.workgroups)])?;
         let counts: Vec<u32> = gpu.read(&counts)?;
-        self.outside += counts[cells];
         let layout = Layout::new(self.cells, &counts[..cells], self.pixels_a_group);
         let firsts = gpu.storage("first pixels of cells", &layout.firsts)?;
-        let order = gpu.zeroed("pixels in order", 4 * u64::from(layout.length))?;
-        let scatter = self.pass(gpu, "sort", &self.scatter, &[&self.places, &firsts, &order])?;
+        let pixels = gpu.zeroed("pixels in order", 4 * u64::from(layout.length))?;
+        let scatter = self.pass(gpu, "sort", &self.scatter, &[&self.places, &firsts, &pixels])?;
         times.extend(gpu.run(&[scatter.over(self.workgroups)])?);
-        let most = BLOCKS_BYTES / self.block_bytes;
-        for (cells, pixels) in layout.cells.chunks(most).zip(layout.pixels.chunks(most)) {
-            times.extend(self.read(gpu, &order, cells, pixels)?);
-        }
-        Ok(times)
+        Ok((Order { layout, pixels, outside: counts[cells] }, times))
     }
 
     fn pass(

@@ -2,6 +2,8 @@
 
 mod common;
 mod grid;
+mod near;
+mod packing;
 mod reading;
 mod schemes;
 

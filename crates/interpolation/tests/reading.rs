@@ -2,11 +2,11 @@
 
 use crate::common::{
     CAMERA, GPU, OUTSIDE, SCHEMES, coefficients, colored, dielectric, grey, grid, lambertian,
-    measured, on_adapter, settings, surfaces,
+    measured, on_adapter, packed, settings, surfaces,
 };
 use glam::{DVec3, Vec3, Vec4};
 use manylights_gpu::SurfaceRecord;
-use manylights_interpolation::{Order, Pixels, Reading, Scheme, Settings, oracle};
+use manylights_interpolation::{Order, Pixels, Reading, Scheme, Settings, Storage, oracle};
 use manylights_scene::Brdf;
 
 fn read<'a>(
@@ -14,7 +14,10 @@ fn read<'a>(
     coefficients: &'a [[f32; 4]],
 ) -> impl Fn(&Pixels<'_>) -> u32 + 'a {
     move |pixels| {
-        let on_gpu = GPU.storage("coefficients", coefficients).expect("it fits");
+        let on_gpu = match settings.storage {
+            Storage::F32 => GPU.storage("coefficients", coefficients).expect("it fits"),
+            Storage::Packed => packed(settings, coefficients),
+        };
         let mut reading = Reading::new(&GPU, settings, &on_gpu, pixels).expect("a kernel");
         reading.add().expect("a run");
         reading.outside().expect("a count")
@@ -51,14 +54,24 @@ fn kinds() -> Vec<Vec<Brdf>> {
     ]
 }
 
-/// Both orders against the oracle and against each other, over the largest radiance.
+/// Both orders against the oracle and against each other, over the largest radiance, with both storages.
 fn check(settings: Settings, brdfs: &[Brdf]) {
-    let (surfaces, light) = (surfaces(brdfs), coefficients(&settings));
+    let light = coefficients(&settings);
+    check_storage(settings, brdfs, &light, &light);
+    let settings = Settings { storage: Storage::Packed, ..settings };
+    let words: Vec<[u32; 4]> = GPU.read(&packed(&settings, &light)).expect("what was packed");
+    let kept = oracle::unpacked(&words, settings.bands, settings.scheme.reads_gradients());
+    check_storage(settings, brdfs, &light, &kept);
+}
+
+/// The adapter reads `light`, the oracle what the storage keeps of it.
+fn check_storage(settings: Settings, brdfs: &[Brdf], light: &[[f32; 4]], kept: &[[f32; 4]]) {
+    let surfaces = surfaces(brdfs);
     let [plain, sorted] = [Order::Plain, Order::Sorted].map(|order| {
         let settings = Settings { order, ..settings };
-        let (values, outside) = on_adapter(&settings, brdfs, &surfaces, read(&settings, &light));
+        let (values, outside) = on_adapter(&settings, brdfs, &surfaces, read(&settings, light));
         assert_eq!(outside, OUTSIDE);
-        let error = error(&values, &surfaces, &settings, &light);
+        let error = error(&values, &surfaces, &settings, kept);
         assert!(error <= 1e-6, "{settings:?}, {brdfs:?}: {error:e}");
         values
     });
@@ -93,6 +106,8 @@ fn thirteen_bands_with_gradients_fit_uniform_memory() {
     };
     assert!(sorted(Scheme::Hermite, 13) && sorted(Scheme::Trilinear, 15));
     assert!(!sorted(Scheme::Hermite, 14));
+    let packed = settings(Scheme::Hermite, 15, &[lambertian()]);
+    assert!(Settings { order: Order::Sorted, storage: Storage::Packed, ..packed }.is_sorted());
 }
 
 /// Points a little apart on both sides of a cell's faces.

@@ -53,13 +53,11 @@ mod gather;
 mod operations;
 pub mod oracle;
 
-use manylights_area_lights::{
-    AreaGather, AreaLightFrame, AreaLightRun, Edges, Estimator, SceneTables,
-};
-use manylights_gpu::Buffer;
-use manylights_method::{Error, ParameterInfo, Parameters, Run};
+use manylights_area_lights::{Edges, Estimator, Gathering, SceneTables};
+use manylights_gpu::Gpu;
+use manylights_method::{Error, ParameterInfo, Parameters};
 use manylights_reflectance::Materials;
-use manylights_scene::AreaLight;
+use manylights_scene::{AreaLight, Scene};
 
 pub use gather::{Kind, LightKinds, LightRecord, gather, linked_shader};
 pub use operations::{LightOperations, STEPS, light_operations};
@@ -77,44 +75,36 @@ impl Estimator for Ltc {
     const VERSION: u32 = 1;
     const PARAMETERS: &'static [ParameterInfo] = &[Edges::PARAMETER];
     const TAKES: &'static str = "triangles and spheres";
-    type Tables = LobeTables;
 
     fn takes(_: &AreaLight) -> bool {
         true
     }
 
-    fn start<'a>(
-        frame: AreaLightFrame<'a>,
-        parameters: &Parameters,
-        tables: &LobeTables,
-    ) -> Result<Box<dyn Run + 'a>, Error> {
-        let AreaLightFrame { scene, eye, on_gpu, pixels, lights } = frame;
-        let records = LightRecord::all(&lights, Edges::new(parameters));
-        let kinds = Materials::of_scene(scene).kinds();
-        let shader = linked_shader(kinds, LightKinds::of(&records))?;
-        let surfaces = (on_gpu.surfaces(), pixels);
-        let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.0.clone())?;
-        Ok(Box::new(AreaLightRun::new(on_gpu, gather, (records, lights.len()), OPERATIONS)))
-    }
-}
-
-/// The transformed lobes of a scene's materials on the adapter: the bake.
-pub struct LobeTables(Vec<Buffer>);
-
-impl SceneTables for LobeTables {
-    fn new(frame: &AreaLightFrame<'_>, _: &Parameters) -> Result<Self, Error> {
-        let materials = Materials::of_scene(frame.scene);
+    fn tables(gpu: &Gpu, scene: &Scene, _: &Parameters) -> Result<SceneTables, Error> {
+        let materials = Materials::of_scene(scene);
         let kinds = materials.kinds();
         if kinds.measured || kinds.exact_fresnel {
             return Err(Error::Declined(
                 "knows GGX lobes with Schlick's Fresnel term; this scene has others".into(),
             ));
         }
-        Ok(Self(gather::tables(frame.on_gpu.gpu(), &materials)?))
+        let on_gpu = gather::tables(gpu, &materials)?;
+        // One or none, of all lobes.
+        let count = u64::from(!on_gpu.is_empty());
+        Ok(SceneTables { on_gpu, count })
     }
 
-    fn count(&self) -> u64 {
-        // One or none, of all lobes.
-        u64::from(!self.0.is_empty())
+    fn gather(
+        scene: &Scene,
+        lights: &[AreaLight],
+        parameters: &Parameters,
+    ) -> Result<Gathering, Error> {
+        let records = LightRecord::all(lights, Edges::new(parameters));
+        let kinds = Materials::of_scene(scene).kinds();
+        Ok(Gathering {
+            shader: linked_shader(kinds, LightKinds::of(&records))?,
+            records: Box::new(records),
+            operations: OPERATIONS,
+        })
     }
 }

@@ -107,7 +107,7 @@ pub trait Method: Sync {
     /// What can be set with `--set KEY=VALUE`.
     fn parameters(&self) -> &'static [ParameterInfo];
 
-    /// What [`Run::counters`] returns, in its order.
+    /// What [`Run::counters`] may return, in its order.
     fn counters(&self) -> &'static [CounterInfo];
 
     /// The parameter that time and accuracy depend on; `None` where there is none: such a method runs once
@@ -158,7 +158,7 @@ pub trait Run {
     /// [`Error::Failed`] where the device gave up.
     fn resolve(&mut self) -> Result<RadianceImage, Error>;
 
-    /// What the run has counted, one number for each of [`Method::counters`].
+    /// What the run has counted: of [`Method::counters`] those that its parameters have a use for, always the same.
     fn counters(&self) -> Vec<(&'static str, u64)>;
 
     /// The time of each pass so far.

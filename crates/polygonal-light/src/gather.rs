@@ -1,7 +1,7 @@
 //! The kernel and what it reads.
 
 use glam::Vec3;
-use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader, IRRADIANCE};
+use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader, IRRADIANCE, LightRecords};
 use manylights_gpu::{Buffer, Error, Gpu, PointBindings, SurfaceRecord, Table};
 use manylights_harmonics::wgsl::{self, Function, polygon};
 use manylights_harmonics::zonal::TriangleForm;
@@ -18,28 +18,22 @@ use crate::{Approximation, Narrow, Settings};
 /// Triangles a batch.
 const CAPACITY: usize = 512;
 
-/// What the kernel of an approximation reads of the lights.
-pub(crate) enum Records {
-    Exact(Vec<ExactRecord>),
-    Centers(Vec<CenterRecord>),
-    Corners(Vec<CornerRecord>),
-    Outlined(Vec<OutlinedRecord>),
-}
-
-impl Records {
-    /// Lights without area are left out.
-    pub(crate) fn new(lights: &[AreaLight], kinds: ReceiverKinds, settings: &Settings) -> Self {
-        match settings.approximation {
-            Approximation::Exact(edges) => Self::Exact(ExactRecord::all(lights, edges)),
-            Approximation::Sphere(form) if needs_corners(form) => {
-                Self::Corners(lights.iter().filter_map(CornerRecord::new).collect())
-            }
-            Approximation::Sphere(_) if transformed(kinds, settings) => {
-                Self::Outlined(lights.iter().filter_map(OutlinedRecord::new).collect())
-            }
-            Approximation::Sphere(_) => {
-                Self::Centers(lights.iter().filter_map(CenterRecord::new).collect())
-            }
+/// What the kernel of an approximation reads of the lights; those without area are left out.
+pub(crate) fn records(
+    lights: &[AreaLight],
+    kinds: ReceiverKinds,
+    settings: &Settings,
+) -> Box<dyn LightRecords> {
+    match settings.approximation {
+        Approximation::Exact(edges) => Box::new(ExactRecord::all(lights, edges)),
+        Approximation::Sphere(form) if needs_corners(form) => {
+            Box::new(lights.iter().filter_map(CornerRecord::new).collect::<Vec<_>>())
+        }
+        Approximation::Sphere(_) if transformed(kinds, settings) => {
+            Box::new(lights.iter().filter_map(OutlinedRecord::new).collect::<Vec<_>>())
+        }
+        Approximation::Sphere(_) => {
+            Box::new(lights.iter().filter_map(CenterRecord::new).collect::<Vec<_>>())
         }
     }
 }
@@ -182,12 +176,7 @@ pub fn gather(
     let shader = linked_shader(materials.kinds(), settings)?;
     let on_gpu = gpu.storage("surfaces", surfaces)?;
     let gather = AreaGather::new(gpu, (&on_gpu, surfaces.len() as u32), camera, &shader, tables)?;
-    let batches = match Records::new(lights, materials.kinds(), settings) {
-        Records::Exact(records) => gather.batches(&records)?,
-        Records::Centers(records) => gather.batches(&records)?,
-        Records::Corners(records) => gather.batches(&records)?,
-        Records::Outlined(records) => gather.batches(&records)?,
-    };
+    let batches = records(lights, materials.kinds(), settings).batches(&gather)?;
     gather.add(&batches, 0..batches.count())?;
     gather.radiance()
 }

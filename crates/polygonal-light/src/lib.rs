@@ -120,7 +120,6 @@
 //! of scenes without narrow lobes do not change.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
-mod bake;
 mod exact;
 mod gather;
 mod light_record;
@@ -128,22 +127,20 @@ mod operations;
 pub mod oracle;
 mod params;
 mod projection;
+mod tables;
 
-use manylights_area_lights::{AreaGather, AreaLightFrame, AreaLightRun, Estimator, LIGHTS};
-use manylights_interpolation::{InterpolatedRun, LightGrid, Pixels};
-use manylights_method::{CounterInfo, Error, ParameterInfo, Parameters, Run};
+use manylights_area_lights::{Estimator, Gathering, Project, SceneTables};
+use manylights_gpu::Gpu;
+use manylights_method::{Error, ParameterInfo, Parameters};
 use manylights_reflectance::Materials;
-use manylights_scene::AreaLight;
+use manylights_scene::{AreaLight, Scene};
 
-pub use bake::LobeTables;
 pub use gather::{gather, linked_shader};
 pub use manylights_area_lights::{Edges, Narrow};
 pub use manylights_harmonics::zonal::TriangleForm;
 pub use operations::{ExactOperations, exact_operations, record_operations};
 pub use params::{Approximation, MAX_BANDS, Settings};
-pub use projection::project;
-
-use gather::Records;
+pub use projection::{linked_exact_projection, linked_projection, project};
 
 /// The method is `AreaLights(PolygonalLights)`.
 #[derive(Clone, Copy, Debug)]
@@ -153,52 +150,30 @@ impl Estimator for PolygonalLights {
     const ID: &'static str = "polygonal-light";
     const TITLE: &'static str =
         "polygonal lights on harmonics (Wang & Ramamoorthi 2018; thesis 3.3, 4.2)";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     const TAKES: &'static str = "triangles";
-    const COUNTERS: &'static [CounterInfo] =
-        &[LIGHTS, manylights_interpolation::COUNTERS[0], manylights_interpolation::COUNTERS[1]];
-    type Tables = LobeTables;
+    const PROJECT: Option<Project> = Some(projection::project_lights);
 
     fn takes(light: &AreaLight) -> bool {
         matches!(light, AreaLight::Triangle { .. })
     }
 
-    fn start<'a>(
-        frame: AreaLightFrame<'a>,
+    fn tables(gpu: &Gpu, scene: &Scene, parameters: &Parameters) -> Result<SceneTables, Error> {
+        tables::tables(gpu, scene, parameters)
+    }
+
+    fn gather(
+        scene: &Scene,
+        lights: &[AreaLight],
         parameters: &Parameters,
-        tables: &LobeTables,
-    ) -> Result<Box<dyn Run + 'a>, Error> {
+    ) -> Result<Gathering, Error> {
         let settings = Settings::new(parameters);
-        let AreaLightFrame { scene, eye, on_gpu, pixels, lights } = frame;
         let kinds = Materials::of_scene(scene).kinds();
-        let shader = linked_shader(kinds, &settings)?;
-        let surfaces = (on_gpu.surfaces(), pixels);
-        let gather = AreaGather::new(on_gpu.gpu(), surfaces, eye, &shader, tables.on_gpu.clone())?;
-        let grid = tables.grid.as_ref().map(|grid| {
-            let results = gather.results();
-            let (surfaces, count) = surfaces;
-            let tables = &tables.on_gpu;
-            let pixels = Pixels { surfaces, count, camera: eye, tables, results };
-            grid.part(on_gpu.gpu(), kinds, &pixels, lights.len())
-        });
-        let grid = grid.transpose()?;
-        let gathered = tables.grid.as_ref().map_or(&lights[..], LightGrid::near);
-        let (operations, count) = (record_operations(kinds, &settings), gathered.len());
-        let gather: Box<dyn Run> = match Records::new(gathered, kinds, &settings) {
-            Records::Exact(records) => {
-                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
-            }
-            Records::Centers(records) => {
-                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
-            }
-            Records::Corners(records) => {
-                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
-            }
-            Records::Outlined(records) => {
-                Box::new(AreaLightRun::new(on_gpu, gather, (records, count), operations))
-            }
-        };
-        Ok(Box::new(InterpolatedRun::new(gather, grid)))
+        Ok(Gathering {
+            shader: linked_shader(kinds, &settings)?,
+            records: gather::records(lights, kinds, &settings),
+            operations: record_operations(kinds, &settings),
+        })
     }
 }

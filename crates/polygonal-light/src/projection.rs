@@ -8,8 +8,10 @@ use manylights_harmonics::polygon::PolygonProjection;
 use manylights_harmonics::wgsl::{self, Function};
 use manylights_harmonics::zonal::TriangleForm;
 use manylights_interpolation::{
-    self as interpolation, Grid, GridCoefficients, Loops, ProjectionShader, SourceShader,
+    self as interpolation, Grid, GridCoefficients, Held, Interpolation, ProjectionSettings,
+    ProjectionShader, SourceShader,
 };
+use manylights_method::Parameters;
 use manylights_scene::AreaLight;
 
 use crate::gather::{form_features, needs_corners, points_module};
@@ -30,7 +32,19 @@ struct Told {
     vertices: u32,
 }
 
-/// The coefficients of triangles at the vertices of a grid, with gradients or without, and the time of each pass.
+/// As [`Estimator::PROJECT`](manylights_area_lights::Estimator::PROJECT).
+pub(crate) fn project_lights(
+    gpu: &Gpu,
+    grid: Grid<f32>,
+    how: Interpolation,
+    parameters: &Parameters,
+    held: &Held<'_>,
+) -> Result<(GridCoefficients, Vec<PassTime>), Error> {
+    project(gpu, grid, &Settings::new(parameters), how.projection(), held.far)
+}
+
+/// The coefficients of triangles at the vertices of a grid, and the time of each pass. Exact triangles have
+/// no loops to choose, nor an evaluation of harmonics.
 ///
 /// # Errors
 /// Where the adapter refuses a kernel or a buffer, or the device gave up.
@@ -38,14 +52,14 @@ pub fn project(
     gpu: &Gpu,
     grid: Grid<f32>,
     settings: &Settings,
-    (gradients, loops): (bool, Loops),
+    how: ProjectionSettings,
     lights: &[AreaLight],
 ) -> Result<(GridCoefficients, Vec<PassTime>), Error> {
     let bands = settings.bands;
     let Approximation::Sphere(form) = settings.approximation else {
-        return project_exactly(gpu, grid, (bands, gradients), lights);
+        return project_exactly(gpu, grid, (bands, how.gradients), lights);
     };
-    let shader = linked_projection(form, bands, (gradients, loops))?;
+    let shader = linked_projection(form, bands, how)?;
     if needs_corners(form) {
         let records: Vec<_> = lights.iter().filter_map(CornerRecord::new).collect();
         return interpolation::project(gpu, grid, &shader, &records);
@@ -55,12 +69,15 @@ pub fn project(
 }
 
 /// The projection of spheres in the stead of triangles.
-fn linked_projection(
+///
+/// # Errors
+/// Where the shader does not link.
+pub fn linked_projection(
     form: TriangleForm,
     bands: usize,
-    (gradients, loops): (bool, Loops),
+    how: ProjectionSettings,
 ) -> Result<ProjectionShader, Error> {
-    let function = if gradients { Function::CapScalesWithRate } else { Function::CapScalesOf };
+    let function = if how.gradients { Function::CapScalesWithRate } else { Function::CapScalesOf };
     let own = [
         ("sh", &*wgsl::module(bands, &[function])),
         ("points", &*points_module(bands)),
@@ -74,7 +91,7 @@ fn linked_projection(
         features: &[&form_features(Some(form))[..], &[("transformed", false)]].concat(),
         capacity: CAPACITY,
     }
-    .link(bands, gradients, loops)
+    .link(bands, how)
 }
 
 /// The coefficients of triangles at the vertices of a grid, lobe by lobe (Wu et al. 2020), and the time of each
@@ -103,7 +120,7 @@ fn project_exactly(
     let channels = if gradients { 3 } else { 1 };
     let size = (grid.count() * lobes as usize * bands * channels * size_of::<[f32; 4]>()) as u64;
     let integrals = gpu.zeroed("zonal integrals", size)?;
-    let [first, second] = shaders(&projection, gradients)?;
+    let [first, second] = linked_exact_projection(&projection, gradients)?;
     let layout = [Binding::Uniform, Binding::Storage, Binding::Batch, Binding::StorageMut];
     let first = gpu.kernel("project", &first, &layout)?;
     let layout = [Binding::Uniform, Binding::Storage, Binding::Storage, Binding::StorageMut];
@@ -122,8 +139,14 @@ fn project_exactly(
     Ok((result, times))
 }
 
-/// Of both passes.
-fn shaders(projection: &PolygonProjection<f64>, gradients: bool) -> Result<[String; 2], Error> {
+/// Both passes of the projection of exact triangles.
+///
+/// # Errors
+/// Where a shader does not link.
+pub fn linked_exact_projection(
+    projection: &PolygonProjection<f64>,
+    gradients: bool,
+) -> Result<[String; 2], Error> {
     let directions = projection.directions();
     let vector =
         |[x, y, z]: &[f64; 3]| format!("vec3f({:?}, {:?}, {:?})", *x as f32, *y as f32, *z as f32);

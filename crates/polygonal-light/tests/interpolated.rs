@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
-use manylights_interpolation::{self as interpolation, Grid, Order, Reach, Scheme};
+use manylights_interpolation::{self as interpolation, Grid, Order, Reach, Scheme, Storage};
 use manylights_metrics::RadianceImage;
 use manylights_polygonal_light::{Edges, Settings, TriangleForm, oracle};
 use manylights_reflectance::Materials;
@@ -15,13 +15,13 @@ const RESOLUTION: [u32; 2] = [24, 18];
 const SCHEMES: [(&str, Scheme); 2] =
     [("trilinear", Scheme::Trilinear), ("hermite", Scheme::Hermite)];
 
-/// Of all that is seen, so many vertices a side.
+/// Of all that is seen, as many vertices as a cube with so many a side.
 fn grid_of(surfaces: &[SurfaceRecord], vertices: usize) -> Grid<f32> {
     let seen = surfaces.iter().filter(|s| s.triangle != SurfaceRecord::NO_TRIANGLE);
     let positions: Vec<Vec3> = seen.map(|surface| surface.position).collect();
     let least = positions.iter().copied().reduce(Vec3::min).expect("something is seen");
     let most = positions.iter().copied().reduce(Vec3::max).expect("something is seen");
-    Grid::over([least.to_array(), most.to_array()], [vertices; 3])
+    Grid::of_cubes([least.to_array(), most.to_array()], vertices)
 }
 
 /// The largest error of a pixel over the largest radiance.
@@ -40,7 +40,14 @@ fn error(
     });
     let bands = settings.bands;
     let kinds = Materials::new(surfaces.iter().map(|surface| surface.brdf())).kinds();
-    let read = interpolation::Settings { grid, scheme, bands, kinds, order: Order::Plain };
+    let read = interpolation::Settings {
+        grid,
+        scheme,
+        bands,
+        kinds,
+        order: Order::Plain,
+        storage: Storage::F32,
+    };
     let all = oracle::coefficients(&grid, &far, settings);
     let stored: Vec<[f32; 4]> = match scheme.reads_gradients() {
         true => all.as_flattened().iter().map(|parts| parts.map(|value| value as f32)).collect(),
@@ -99,10 +106,28 @@ fn pictures_are_those_of_f64() {
     }
 }
 
+/// Nearly the same pictures, and not from what f32 keeps.
+#[test]
+fn pictures_of_packed_coefficients_are_near() {
+    let scene = lit();
+    for (word, scheme) in SCHEMES {
+        let texts = [("bands", "4"), ("interpolation", word), ("grid", "4"), ("storage", "packed")];
+        let picture = render(&scene, RESOLUTION, &texts, DIRECT).expect("a picture");
+        let settings = Settings { bands: 4, ..exact(Edges::Shared) };
+        let error = error(&scene, &picture, 4, scheme, &settings);
+        println!("{word}: {error:.1e}");
+        assert!((1e-5..2e-3).contains(&error), "{word}: {error:e}");
+    }
+}
+
 #[test]
 fn what_a_grid_cannot_hold_is_declined() {
-    let texts = [("interpolation", "trilinear"), ("narrow", "ltc")];
-    let refused = render(&lit(), RESOLUTION, &texts, DIRECT).expect_err("declined");
-    let said = refused.to_string();
-    assert!(said.contains("narrow=decline"), "{said}");
+    for (name, word, mend) in
+        [("narrow", "ltc", "narrow=decline"), ("near", "smoothed", "near=apart")]
+    {
+        let texts = [("interpolation", "trilinear"), (name, word)];
+        let refused = render(&lit(), RESOLUTION, &texts, DIRECT).expect_err("declined");
+        let said = refused.to_string();
+        assert!(said.contains(mend), "{said}");
+    }
 }

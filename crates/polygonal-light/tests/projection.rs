@@ -1,7 +1,8 @@
 //! Coefficients at the vertices of a grid against f64.
 
 use glam::Vec3;
-use manylights_interpolation::{Grid, Loops};
+use manylights_harmonics::wgsl::order::Evaluation;
+use manylights_interpolation::{Grid, Loops, ProjectionSettings};
 use manylights_polygonal_light::{
     Approximation, Edges, Narrow, Settings, TriangleForm, oracle, project,
 };
@@ -31,14 +32,18 @@ fn lights(size: f32, distance: f32) -> Vec<AreaLight> {
     (0..600).map(light).collect()
 }
 
+fn how(gradients: bool) -> ProjectionSettings {
+    ProjectionSettings { gradients, loops: Loops::Reverse, evaluation: Evaluation::Recurrence }
+}
+
 /// The largest error beside the largest value or derivative, of all with gradients and of values alone.
 fn errors(approximation: Approximation, bands: usize, lights: &[AreaLight]) -> [f64; 2] {
     let settings = Settings { bands, approximation, narrow: Narrow::Decline };
     let truth = oracle::coefficients(&grid(), lights, &settings);
     let largest = truth.as_flattened().as_flattened().iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     [true, false].map(|gradients| {
-        let (found, _) = project(&GPU, grid(), &settings, (gradients, Loops::Reverse), lights)
-            .expect("a projection");
+        let (found, _) =
+            project(&GPU, grid(), &settings, how(gradients), lights).expect("a projection");
         let found: Vec<[f32; 4]> = GPU.read(&found.buffer).expect("coefficients");
         let mut worst = 0.0_f64;
         for (i, truth) in truth.iter().enumerate() {
@@ -96,7 +101,7 @@ fn vertices_on_lights_see_what_is_finite() {
             for two_sided in [false, true] {
                 let lights = [AreaLight::Triangle { corners, radiance: Vec3::ONE, two_sided }];
                 for gradients in [false, true] {
-                    let how = (gradients, Loops::Reverse);
+                    let how = how(gradients);
                     let (found, _) =
                         project(&GPU, grid, &settings, how, &lights).expect("a projection");
                     let found: Vec<[f32; 4]> = GPU.read(&found.buffer).expect("coefficients");

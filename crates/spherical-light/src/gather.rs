@@ -5,6 +5,7 @@ use glam::Vec3;
 use manylights_area_lights::{AreaGather, EstimatorShader, GatherShader, IRRADIANCE, Narrow};
 use manylights_gpu::{Buffer, Error, Gpu, PointBindings, Table};
 use manylights_harmonics::wgsl::{self, Function};
+use manylights_interpolation::Grid;
 use manylights_reflectance::transformed_cosine::{self, TRANSFORMED_LOBES};
 use manylights_reflectance::{
     CosineProduct, Damping, Form, LOBES, MODULES, Materials, ReceiverKinds, SHAPES, Tables,
@@ -45,6 +46,19 @@ impl SphereLight {
             }
             AreaLight::Triangle { .. } => None,
         }
+    }
+
+    /// What a grid can hold of one near it: of at least half of the largest spacing, so that coefficients change
+    /// little enough between vertices, and of the same power, L r². Seen as a disc ([`Extent::Disc`]).
+    pub fn smoothed(&self, grid: &Grid<f32>) -> Self {
+        let spacing = grid.spacing.into_iter().fold(0.0, f32::max);
+        let radius = self.radius.max(0.5 * spacing);
+        Self::new(self.center, radius, (self.radius / radius).powi(2) * self.radiance)
+    }
+
+    /// Of all that are spheres.
+    pub(crate) fn all(lights: &[AreaLight]) -> Vec<Self> {
+        lights.iter().filter_map(Self::of).collect()
     }
 }
 

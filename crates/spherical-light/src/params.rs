@@ -105,6 +105,8 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
     Interpolation::BOUNDS,
     Interpolation::LOOPS,
     Interpolation::READING,
+    Interpolation::NEAR,
+    Interpolation::STORAGE,
 ];
 
 const NARROW: [(&str, Narrow); 3] =

@@ -3,12 +3,12 @@
 use glam::Vec3;
 use manylights_area_lights::AreaLights;
 use manylights_gpu::{GpuFrame, SurfaceRecord};
-use manylights_interpolation::{self as interpolation, Grid, Order, Reach, Scheme};
+use manylights_interpolation::{self as interpolation, Grid, Near, Order, Reach, Scheme, Storage};
 use manylights_method::{Dependencies, Frame, Method, Parameters, Processor, Run};
 use manylights_metrics::RadianceImage;
 use manylights_reflectance::Materials;
 use manylights_scene::{AreaLight, Scene};
-use manylights_spherical_light::{Settings, SphereLight, SphericalLights, oracle};
+use manylights_spherical_light::{Extent, Settings, SphereLight, SphericalLights, oracle};
 
 use crate::common::{DIRECT, GPU, SETTINGS, render, scene};
 
@@ -21,20 +21,28 @@ const SCHEMES: [(&str, Scheme); 4] = [
     ("hermite", Scheme::Hermite),
 ];
 
-/// Of all that is seen, so many vertices a side.
+/// Of all that is seen, as many vertices as a cube with so many a side.
 fn grid_of(surfaces: &[SurfaceRecord], vertices: usize) -> Grid<f32> {
     let seen = surfaces.iter().filter(|s| s.triangle != SurfaceRecord::NO_TRIANGLE);
     let positions: Vec<Vec3> = seen.map(|surface| surface.position).collect();
     let least = positions.iter().copied().reduce(Vec3::min).expect("something is seen");
     let most = positions.iter().copied().reduce(Vec3::max).expect("something is seen");
-    Grid::over([least.to_array(), most.to_array()], [vertices; 3])
+    Grid::of_cubes([least.to_array(), most.to_array()], vertices)
+}
+
+/// Of at least half of the largest spacing, with the same power.
+fn smoothed(light: &SphereLight, grid: &Grid<f32>) -> SphereLight {
+    let [x, y, z] = grid.spacing;
+    let radius = light.radius.max(x.max(y).max(z) / 2.0);
+    let power = light.radius * light.radius * light.radiance;
+    SphereLight::new(light.center, radius, power / (radius * radius))
 }
 
 /// The largest error of a pixel over the largest radiance.
 fn error(
     scene: &Scene,
     (image, surfaces): &(RadianceImage, Vec<SurfaceRecord>),
-    vertices: usize,
+    (vertices, near_lights): (usize, Near),
     scheme: Scheme,
     settings: &Settings,
 ) -> f64 {
@@ -46,8 +54,28 @@ fn error(
     });
     let bands = settings.bands;
     let kinds = Materials::new(surfaces.iter().map(|surface| surface.brdf())).kinds();
-    let read = interpolation::Settings { grid, scheme, bands, kinds, order: Order::Plain };
-    let all = oracle::coefficients(&grid, &far, settings);
+    let read = interpolation::Settings {
+        grid,
+        scheme,
+        bands,
+        kinds,
+        order: Order::Plain,
+        storage: Storage::F32,
+    };
+    let mut all = oracle::coefficients(&grid, &far, settings);
+    let near = match near_lights {
+        Near::Apart => near,
+        Near::Smoothed => {
+            let discs = Settings { extent: Extent::Disc, ..*settings };
+            let smoothed: Vec<_> = near.iter().map(|light| smoothed(light, &grid)).collect();
+            let more = oracle::coefficients(&grid, &smoothed, &discs);
+            let more = more.as_flattened().as_flattened();
+            for (sum, more) in all.as_flattened_mut().as_flattened_mut().iter_mut().zip(more) {
+                *sum += more;
+            }
+            Vec::new()
+        }
+    };
     let stored: Vec<[f32; 4]> = match scheme.reads_gradients() {
         true => all.as_flattened().iter().map(|parts| parts.map(|value| value as f32)).collect(),
         false => {
@@ -92,10 +120,68 @@ fn pictures_are_those_of_f64() {
                     [("bands", "4"), ("interpolation", word), ("grid", "4"), ("reading", reading)];
                 let picture = render(&scene, RESOLUTION, &texts, DIRECT).expect("a picture");
                 let settings = Settings { bands: 4, ..SETTINGS };
-                let error = error(&scene, &picture, 4, scheme, &settings);
+                let error = error(&scene, &picture, (4, Near::Apart), scheme, &settings);
                 println!("near {is_near}, {word}, {reading}: {error:.1e}");
                 assert!(error < 1e-5, "near {is_near}, {word}, {reading}: {error:e}");
             }
+        }
+    }
+}
+
+/// Small ones grow, large ones stay; both are counted.
+#[test]
+fn pictures_with_smoothed_lights_are_those_of_f64() {
+    let mut scene = lit(true);
+    let center = Vec3::new(-1.0, 2.0, 1.0);
+    scene.area_lights.push(AreaLight::Sphere { center, radius: 1.5, radiance: Vec3::ONE });
+    for (word, scheme) in SCHEMES {
+        for loops in ["forward", "reverse"] {
+            let texts = [
+                ("bands", "4"),
+                ("interpolation", word),
+                ("grid", "4"),
+                ("near", "smoothed"),
+                ("loops", loops),
+            ];
+            let picture = render(&scene, RESOLUTION, &texts, DIRECT).expect("a picture");
+            let settings = Settings { bands: 4, ..SETTINGS };
+            let error = error(&scene, &picture, (4, Near::Smoothed), scheme, &settings);
+            println!("{word}, {loops}: {error:.1e}");
+            assert!(error < 1e-5, "{word}, {loops}: {error:e}");
+        }
+    }
+    let texts = [("bands", "4"), ("interpolation", "hermite"), ("grid", "4"), ("near", "smoothed")];
+    let settings = parameters(&texts);
+    with_frames(&scene, &mut |frames| {
+        let method = AreaLights(SphericalLights);
+        let mut run = method.prepare(&frames[0], &settings).expect("a run");
+        assert!(run.step().expect("a step").finished(), "nothing is gathered");
+        let all = scene.area_lights.len() as u64;
+        assert_eq!(
+            run.counters(),
+            [("lights", all), ("smoothed_lights", 2), ("pixels_outside", 0)]
+        );
+    });
+}
+
+/// Nearly the same pictures, and not from what f32 keeps.
+#[test]
+fn pictures_of_packed_coefficients_are_near() {
+    let scene = lit(false);
+    for (word, scheme) in SCHEMES {
+        for reading in ["plain", "sorted"] {
+            let texts = [
+                ("bands", "4"),
+                ("interpolation", word),
+                ("grid", "4"),
+                ("reading", reading),
+                ("storage", "packed"),
+            ];
+            let picture = render(&scene, RESOLUTION, &texts, DIRECT).expect("a picture");
+            let settings = Settings { bands: 4, ..SETTINGS };
+            let error = error(&scene, &picture, (4, Near::Apart), scheme, &settings);
+            println!("{word}, {reading}: {error:.1e}");
+            assert!((1e-5..2e-3).contains(&error), "{word}, {reading}: {error:e}");
         }
     }
 }
@@ -142,6 +228,8 @@ fn near_lights_are_counted_and_bakes_say_what_they_depend_on() {
             let bake = baking.bake(&frames[0], &settings).expect("a bake");
             assert!(bake.pass_times().iter().any(|time| time.pass == "project"));
             let run = bake.prepare(&frames[0], &settings).expect("a run");
+            let names: Vec<_> = run.counters().iter().map(|(name, _)| *name).collect();
+            assert_eq!(names, ["lights", "near_lights", "pixels_outside"]);
             let (_, counters) = finished(run);
             assert_eq!(counters, [scene.area_lights.len() as u64, counted, 0]);
         });

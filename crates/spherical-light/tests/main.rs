@@ -12,6 +12,7 @@ mod products;
 mod projection;
 mod scenes;
 mod shaders;
+mod smoothed;
 mod tables;
 mod truth;
 

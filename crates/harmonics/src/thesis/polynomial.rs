@@ -9,8 +9,8 @@ struct Term<R> {
     powers: [usize; 3],
 }
 
-/// Largest number of bands of [`Polynomials`].
-const BANDS: usize = 10;
+/// Largest number of bands of [`Polynomials`]: in single precision their terms cancel the more the higher the band.
+pub const POLYNOMIAL_BANDS: usize = 10;
 
 /// Sums of monomials for up to ten bands, as the traditional evaluation has them: Q_l^m(z) times
 /// Re or Im (x + iy)^m, multiplied out.
@@ -22,7 +22,10 @@ pub struct Polynomials<R> {
 impl<R: Real> Polynomials<R> {
     /// Terms for 1 … 10 bands.
     pub fn new(bands: usize) -> Self {
-        assert!((1..=BANDS).contains(&bands), "1 to {BANDS} bands, not {bands}");
+        assert!(
+            (1..=POLYNOMIAL_BANDS).contains(&bands),
+            "1 to {POLYNOMIAL_BANDS} bands, not {bands}"
+        );
         let mut terms = vec![Vec::new(); count(bands)];
         for l in 0..bands {
             for m in 0..=l {
@@ -79,22 +82,26 @@ impl<R: Real> Polynomials<R> {
 }
 
 impl<R: Real> Term<R> {
-    fn product(&self, powers: &[[R; BANDS]; 3]) -> R {
+    fn product(&self, powers: &[[R; POLYNOMIAL_BANDS]; 3]) -> R {
         let [i, j, k] = self.powers;
         powers[0][i] * powers[1][j] * powers[2][k]
     }
 }
 
-fn powers<R: Real>(base: R) -> [R; BANDS] {
-    let mut powers = [R::one(); BANDS];
-    for i in 1..BANDS {
+fn powers<R: Real>(base: R) -> [R; POLYNOMIAL_BANDS] {
+    let mut powers = [R::one(); POLYNOMIAL_BANDS];
+    for i in 1..POLYNOMIAL_BANDS {
         powers[i] = powers[i - 1] * base;
     }
     powers
 }
 
 /// Coefficients of zᵏ in √2 K_l^m dᵐP_l/dzᵐ.
-fn zonal_part(l: usize, m: usize) -> Vec<f64> {
+///
+/// # Panics
+/// Beyond [`POLYNOMIAL_BANDS`].
+pub(crate) fn zonal_part(l: usize, m: usize) -> Vec<f64> {
+    assert!(l < POLYNOMIAL_BANDS, "polynomials of at most {POLYNOMIAL_BANDS} bands");
     let (mut before, mut legendre) = (vec![0.0; l + 1], vec![0.0; l + 1]);
     legendre[0] = 1.0;
     for n in 1..=l {
@@ -113,6 +120,6 @@ fn zonal_part(l: usize, m: usize) -> Vec<f64> {
         .collect()
 }
 
-fn binomial(n: usize, k: usize) -> f64 {
+pub(crate) fn binomial(n: usize, k: usize) -> f64 {
     (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
 }

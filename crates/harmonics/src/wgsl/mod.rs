@@ -13,6 +13,7 @@ mod cap;
 mod gradient;
 mod lines;
 pub mod order;
+mod order_scope;
 pub mod polygon;
 mod product;
 mod rotation;

@@ -7,6 +7,7 @@ use manylights_method::Cost;
 use plotters::style::RGBColor;
 
 use crate::answer::rows::{Medians, Row, SceneAnswer};
+use crate::answer::significance::Estimate;
 use crate::measurement::cell::Checkpoint;
 use crate::question::experiment::Experiment;
 use crate::show::style::{Marker, method_style};
@@ -25,16 +26,18 @@ pub(crate) struct Series {
     variants: Vec<usize>,
     /// The cost, where its points differ in the amount of work, so that checkpoints lie on it.
     along: Option<Cost>,
+    /// What the method counts of its work: lights asked for are not all lit.
+    counter: Option<&'static str>,
 }
 
 /// A measurement on a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point {
-    /// Value of the method's cost parameter, where it has one.
+    /// What was counted of the method's cost parameter, or else its value, where it has one.
     pub(crate) amount: Option<f64>,
     /// Median time of the work, with its quartiles.
     pub(crate) seconds: [f64; 3],
-    /// RMSE of sRGB values over all seeds, with the least and the largest.
+    /// RMSE of sRGB values over all seeds without the noise of the reference, with its 95 % interval.
     pub(crate) rmse: [f64; 3],
 }
 
@@ -57,6 +60,7 @@ pub(crate) fn of_experiment(experiment: &Experiment, scenes: &[SceneAnswer]) -> 
             }
             let method = variant.method.id();
             let nth = curves_of.entry(method).or_insert(0);
+            let counter = variant.method.cost().map(|cost| cost.parameter);
             let along = variant.method.cost().filter(|cost| Some(cost.parameter) == variant.swept);
             let machine = machine.to_owned();
             list.push(Series {
@@ -66,6 +70,7 @@ pub(crate) fn of_experiment(experiment: &Experiment, scenes: &[SceneAnswer]) -> 
                 machine,
                 variants: vec![index],
                 along,
+                counter,
             });
             *nth += 1;
         }
@@ -94,7 +99,7 @@ impl Series {
     pub(crate) fn points(&self, scene: &SceneAnswer, reference: &str) -> Vec<Point> {
         let runs = self.runs(scene);
         let mut points: Vec<Point> =
-            runs.iter().filter_map(|medians| point(medians, reference)).collect();
+            runs.iter().filter_map(|medians| self.point(medians, reference)).collect();
         if let Some(cost) = self.along {
             let known: Vec<Option<f64>> = points.iter().map(|point| point.amount).collect();
             let mut between = checkpoints(&runs, cost, reference);
@@ -103,6 +108,31 @@ impl Series {
             points.sort_by(|a, b| work(cost, a.amount).total_cmp(&work(cost, b.amount)));
         }
         points
+    }
+
+    fn point(&self, medians: &Medians, reference: &str) -> Option<Point> {
+        let sample = medians.samples.get(reference)?;
+        let rmse = sample.mean_squared().sqrt();
+        let [lower, upper] = sample.interval().unwrap_or([rmse; 2]);
+        let seconds = medians.seconds;
+        let counted = self.counter.and_then(|counter| medians.counters.get(counter));
+        Some(Point {
+            amount: counted.map(|&count| count as f64).or(medians.amount),
+            seconds: [seconds.median, seconds.lower, seconds.upper],
+            rmse: [rmse, lower, upper],
+        })
+    }
+
+    /// The bias that more work leaves: that of the most work, where it is more than chance.
+    pub(crate) fn plateau(&self, scene: &SceneAnswer, reference: &str) -> Option<f64> {
+        let most = |a: &&&Medians, b: &&&Medians| {
+            let work =
+                |medians: &Medians| self.along.map_or(0.0, |cost| work(cost, medians.amount));
+            work(a).total_cmp(&work(b))
+        };
+        let runs = self.runs(scene);
+        let Estimate { value, half } = runs.iter().max_by(most)?.split.get(reference)?.squared_bias;
+        (self.along.is_some() && value > half).then(|| value.sqrt())
     }
 
     /// What its variants measured on a scene, in their order.
@@ -126,23 +156,13 @@ fn checkpoints(runs: &[&Medians], cost: Cost, reference: &str) -> Vec<Point> {
     let longest = runs.iter().max_by(|a, b| work(a).total_cmp(&work(b)));
     let Some(longest) = longest else { return Vec::new() };
     let point = |checkpoint: &Checkpoint| {
-        let rmse = *checkpoint.display_rmse.get(reference)?;
+        let floor = longest.samples.get(reference)?.floor;
+        let squared = checkpoint.display_rmse.get(reference)?.powi(2) - floor.powi(2);
+        let rmse = squared.max(0.0).sqrt();
         let seconds = [checkpoint.step_seconds; 3];
         Some(Point { amount: Some(checkpoint.amount), seconds, rmse: [rmse; 3] })
     };
     longest.checkpoints.iter().filter_map(point).collect()
-}
-
-fn point(medians: &Medians, reference: &str) -> Option<Point> {
-    let rmse = medians.errors.get(reference)?.display.rmse;
-    let sample = medians.samples.get(reference)?;
-    let seeds = || sample.seeds.iter().map(|seed| seed.squared.sqrt());
-    let seconds = medians.seconds;
-    Some(Point {
-        amount: medians.amount,
-        seconds: [seconds.median, seconds.lower, seconds.upper],
-        rmse: [rmse, seeds().fold(rmse, f64::min), seeds().fold(rmse, f64::max)],
-    })
 }
 
 /// When a curve reaches an error.

@@ -1,5 +1,9 @@
 //! The same reading in f64 on the CPU.
 
+mod packed;
+
+pub use packed::unpacked;
+
 use glam::DVec3;
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::count;

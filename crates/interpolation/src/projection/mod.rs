@@ -4,6 +4,6 @@ mod loops;
 mod projector;
 mod shader;
 
-pub use loops::Loops;
-pub use projector::{GridCoefficients, project};
+pub use loops::{Loops, ProjectionSettings};
+pub use projector::{GridCoefficients, Projector, project};
 pub use shader::{ProjectionShader, SourceShader};

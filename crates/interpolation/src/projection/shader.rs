@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use manylights_gpu::{Binding, Error, Feature, Gpu, Kernel, Module, link};
 
-use super::Loops;
+use super::ProjectionSettings;
 use super::loops::modules;
 
 /// Lanes of a workgroup.
@@ -37,18 +37,14 @@ pub struct ProjectionShader {
 }
 
 impl SourceShader<'_> {
-    /// The projection of these lights on so many bands, with or without gradients.
+    /// The projection of these lights on so many bands.
     ///
     /// # Errors
     /// Where a module does not link.
-    pub fn link(
-        &self,
-        bands: usize,
-        gradients: bool,
-        loops: Loops,
-    ) -> Result<ProjectionShader, Error> {
+    pub fn link(&self, bands: usize, how: ProjectionSettings) -> Result<ProjectionShader, Error> {
+        let ProjectionSettings { gradients, loops, .. } = how;
         let layout = format!("const CAPACITY = {}u;\nconst LANES = {LANES}u;\n", self.capacity);
-        let made = modules(bands, gradients, loops);
+        let made = modules(bands, how);
         let made = made.each_ref().map(|(name, text)| (*name, &**text));
         let own = [
             ("layout", &*layout),

@@ -4,9 +4,11 @@ use std::sync::LazyLock;
 
 use crate::tensor;
 use glam::{Quat, Vec3};
-use manylights_gpu::{Gpu, SurfaceRecord};
+use manylights_gpu::{Buffer, Gpu, SurfaceRecord};
 use manylights_harmonics::count;
-use manylights_interpolation::{Grid, Order, Pixels, Scheme, Settings};
+use manylights_interpolation::{
+    Grid, GridCoefficients, Order, Pixels, Scheme, Settings, Storage, pack,
+};
 use manylights_reflectance::{Damping, Form, Materials, Tables};
 use manylights_scene::{Brdf, Lobe, Measured};
 
@@ -56,7 +58,7 @@ pub(crate) fn grid() -> Grid<f32> {
 
 pub(crate) fn settings(scheme: Scheme, bands: usize, brdfs: &[Brdf]) -> Settings {
     let kinds = Materials::new(brdfs.iter().copied()).kinds();
-    Settings { grid: grid(), scheme, bands, kinds, order: Order::Plain }
+    Settings { grid: grid(), scheme, bands, kinds, order: Order::Plain, storage: Storage::F32 }
 }
 
 /// As light has them: the higher the band, the less is in it.
@@ -71,6 +73,14 @@ pub(crate) fn coefficients(settings: &Settings) -> Vec<[f32; 4]> {
     };
     let vertices = 0..settings.grid.count();
     vertices.flat_map(|vertex| (0..vectors).map(move |i| value(vertex, i))).collect()
+}
+
+/// The same on the adapter, packed.
+pub(crate) fn packed(settings: &Settings, light: &[[f32; 4]]) -> Buffer {
+    let buffer = GPU.storage("coefficients", light).expect("it fits");
+    let Settings { grid, bands, scheme, .. } = *settings;
+    let projected = GridCoefficients { grid, bands, gradients: scheme.reads_gradients(), buffer };
+    pack(&GPU, &projected).expect("a run").0
 }
 
 /// Points all over the grid, on its vertices, edges and faces, and outside, of each reflectance in turn.

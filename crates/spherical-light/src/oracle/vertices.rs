@@ -25,7 +25,11 @@ pub fn coefficients(
                 Extent::Sphere => Sighting::of_sphere(offset, radius),
                 Extent::Disc => Sighting::of_disk(offset, radius),
             };
-            let Some(seen) = seen else { continue };
+            let Some(mut seen) = seen else { continue };
+            if settings.extent == Extent::Disc {
+                // Within its radius the turn of a disc is bounded by that of the radius.
+                seen.distance = seen.distance.max(radius);
+            }
             let (mut scales, mut rates) = (vec![0.0; bands], vec![0.0; bands]);
             cap_stable(seen.cap, &mut scales);
             cap_rate_stable(seen.cap, seen.cosine_rate, &mut rates);

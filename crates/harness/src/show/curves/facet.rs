@@ -51,6 +51,8 @@ pub(super) struct Facet {
     floor: Option<f64>,
     /// One for each series.
     curves: Vec<Vec<Mark>>,
+    /// Of each series the bias that more work leaves, where it is known.
+    plateaus: Vec<Option<f64>>,
     width: Range<f64>,
     height: Range<f64>,
 }
@@ -78,7 +80,8 @@ impl Facet {
         }
         let errors = |facet: &Self| {
             let marks = facet.curves.iter().flatten().flat_map(|mark| mark.y);
-            marks.chain(facet.floor).collect::<Vec<_>>()
+            let lines = facet.plateaus.iter().copied().flatten();
+            marks.chain(lines).chain(facet.floor).collect::<Vec<_>>()
         };
         let height = bounds(facets.iter().flat_map(errors));
         for against in Against::ALL {
@@ -95,17 +98,22 @@ impl Facet {
     fn new(scene: &SceneAnswer, reference: &str, series: &[Series], against: Against) -> Self {
         let curve = |series: &Series| {
             let points = series.points(scene, reference).into_iter();
-            let mark = |point: Point| Some(Mark { x: against.of(&point)?, y: point.rmse });
+            // Zero has no place on a logarithmic axis: a bar that would reach it ends a decade below.
+            let mark = |point: Point| {
+                let [error, lower, upper] = point.rmse;
+                Some(Mark { x: against.of(&point)?, y: [error, lower.max(0.1 * error), upper] })
+            };
             let marks = points.filter_map(mark);
-            // Zero has no place on a logarithmic axis.
             marks.filter(|mark| mark.x[1] > 0.0 && mark.y[1] > 0.0).collect()
         };
         let floor = scene.floor(reference).map(|(_, display)| display);
+        let plateau = |series: &Series| series.plateau(scene, reference);
         Self {
             title: format!("{}, against {reference}", scene.scene),
             against,
             floor: floor.filter(|&floor| floor > 0.0),
             curves: series.iter().map(curve).collect(),
+            plateaus: series.iter().map(plateau).collect(),
             width: 0.1..1.0,
             height: 0.1..1.0,
         }
@@ -134,8 +142,13 @@ impl Facet {
         if let Some(floor) = self.floor {
             self.draw_floor(&mut chart, floor)?;
         }
-        for (curve, marks) in series.iter().zip(&self.curves) {
+        for ((curve, marks), plateau) in series.iter().zip(&self.curves).zip(&self.plateaus) {
             draw_curve(&mut chart, curve, marks)?;
+            if let (Some(plateau), Some(first)) = (*plateau, marks.first()) {
+                let line = [(first.x[0], plateau), (self.width.end, plateau)];
+                let style = curve.style().0.stroke_width(1);
+                chart.draw_series(DashedLineSeries::new(line, 1, 3, style))?;
+            }
         }
         Ok(())
     }
