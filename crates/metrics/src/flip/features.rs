@@ -2,8 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::PIXELS_PER_DEGREE;
-use super::plane::{Plane, Taps};
+use super::plane::{PIXELS_PER_DEGREE, Plane, Taps};
 
 /// Width of the lines that the observer detects best, in degrees.
 const WIDTH: f64 = 0.082;

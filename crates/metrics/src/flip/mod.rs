@@ -14,8 +14,6 @@ use plane::Plane;
 
 use crate::RadianceImage;
 
-/// Of the observer whom the paper assumes: 0.7 m before a display that has 3840 pixels in 0.7 m.
-const PIXELS_PER_DEGREE: f64 = 3840.0 * std::f64::consts::PI / 180.0;
 /// Compresses differences of colour.
 const COLOR_EXPONENT: f64 = 0.7;
 /// Differences of colour up to this part of the largest one ...

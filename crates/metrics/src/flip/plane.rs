@@ -1,4 +1,7 @@
-//! One channel of a picture and separable filters on it.
+//! One channel of a picture before the observer, and separable filters on it.
+
+/// Of the observer whom the paper assumes: 0.7 m before a display that has 3840 pixels in 0.7 m.
+pub(super) const PIXELS_PER_DEGREE: f64 = 3840.0 * std::f64::consts::PI / 180.0;
 
 /// Weights of a filter along one axis: an odd number, the middle one of the pixel itself.
 pub(super) struct Taps(Vec<f64>);

@@ -2,8 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::PIXELS_PER_DEGREE;
-use super::plane::{Plane, Taps};
+use super::plane::{PIXELS_PER_DEGREE, Plane, Taps};
 
 /// Amplitude and, in degrees squared, scale of a Gaussian of the sensitivity.
 type Term = [f64; 2];
