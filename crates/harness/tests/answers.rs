@@ -97,6 +97,65 @@ fn report_and_merge_give_what_the_run_gave() {
     refused(&["report", &place.path("out")], "two cells of one run");
 }
 
+/// Values of a column of `table.csv`.
+fn column(csv: &str, name: &str) -> Vec<String> {
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().expect("a head");
+    let place = head.iter().position(|&title| title == name).expect(name);
+    lines.map(|line| line[place].to_owned()).collect()
+}
+
+/// Cells of an older program lack FLIP and the trimmed error: they are read, and nothing is shown for these.
+#[test]
+fn all_metrics_are_shown_where_they_are_known() {
+    let place = Place::new();
+    let columns = "columns = [\"rmse\", \"mae\", \"flip\", \"rel-mse\", \"rel-mse-trimmed\"]\n";
+    let experiment = EXPERIMENT.replace("\"cornell\", \"trio\"", "\"cornell\"");
+    place.run(&experiment.replace("[[methods]]", &format!("{columns}[[methods]]")), "out", "cache");
+    let [csv, markdown, _] = place.tables("out");
+    assert!(markdown.contains("| MAE | FLIP | relMSE | relMSE trimmed |"), "{markdown}");
+    let new = ["display_flip", "display_rel_mse_trimmed", "linear_rel_mse_trimmed"];
+    for name in new {
+        let known = |value: &String| value.parse::<f64>().is_ok_and(|value| value > 0.0);
+        assert!(column(&csv, name).iter().all(known), "{name}: {csv}");
+    }
+    assert!(!csv.contains("linear_flip"), "FLIP is of what is shown");
+
+    let out = place.path("out");
+    let curves = || place.read("out/curves.svg");
+    assert!(curves().contains("RMSE of sRGB values") && curves().contains("noise floor"));
+    succeeded(&manylights(&["report", &out, "--metric", "display_flip"]));
+    assert!(curves().contains("FLIP of sRGB values"));
+    let circles = || curves().matches("<circle").count();
+    assert_eq!(circles(), 2 + 2 * 2 * 4, "the legend; references, axes, variants");
+    assert!(!curves().contains("RMSE of") && !curves().contains("noise floor"));
+    assert!(place.read("out/report.html").contains("FLIP of sRGB values"));
+    refused(&["report", &out, "--metric", "display_filp"], "did you mean `display_flip`?");
+
+    let older = place.read("out/cells.jsonl").lines().map(without_new_metrics).collect::<String>();
+    place.write("out/cells.jsonl", &older);
+    succeeded(&manylights(&["report", &out, "--metric", "display_flip"]));
+    assert_eq!(circles(), 2, "no point is known");
+    let csv = place.read("out/table.csv");
+    for name in new {
+        assert!(column(&csv, name).iter().all(String::is_empty), "{name}: {csv}");
+    }
+    assert!(column(&csv, "display_rmse").iter().all(|value| !value.is_empty()), "{csv}");
+}
+
+fn without_new_metrics(line: &str) -> String {
+    let mut cell: serde_json::Value = serde_json::from_str(line).expect("JSON");
+    let comparisons = cell["errors"].as_object_mut().expect("an object").values_mut();
+    for comparison in comparisons {
+        for space in ["linear", "display"] {
+            let errors = comparison[space].as_object_mut().expect("an object");
+            errors.remove("flip");
+            assert!(errors.remove("rel_mse_trimmed").is_some());
+        }
+    }
+    format!("{cell}\n")
+}
+
 #[test]
 fn caches_decide_nothing() {
     let place = Place::new();

@@ -337,13 +337,19 @@ fn metrics_of_two_pictures() {
     // Both are exact in binary.
     near(&report["linear"]["rmse"], 0.25);
     near(&report["linear"]["mse"], 0.0625);
+    near(&report["linear"]["rel_mse_trimmed"], 0.0625 / 0.26);
+    assert!(report["display"]["flip"].as_f64().is_some_and(|flip| flip > 0.1));
+    assert!(report["linear"].get("flip").is_none(), "radiance is not what is seen");
     near(&report["exposure"], 1.0);
     let same = json(&["metrics", &dark, &dark, "--json"]);
     near(&same["display"]["rmse"], 0.0);
     assert!(same["display"]["psnr"].is_null(), "infinite");
     let output = manylights(&["metrics", &dark, &bright]);
     succeeded(&output);
-    assert!(output.stdout.is_empty() && String::from_utf8_lossy(&output.stderr).contains("ssim"));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.stdout.is_empty() && said.contains("ssim"), "{said}");
+    let flip = said.lines().find(|line| line.starts_with("flip ")).expect("a line");
+    assert!(flip.split_whitespace().nth(1) == Some("—"), "{flip}");
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Error, RadianceImage, ssim};
+use crate::{Error, RadianceImage, flip, ssim};
 
 /// How far a picture x is from its reference r, as means over all components of all pixels (SSIM:
-/// of the valid region). [`METRICS`] has the formulas in words for people.
+/// of the valid region). [`METRICS`](crate::METRICS) has the formulas in words for people.
 ///
 /// All sums are in f64 and in one fixed order, row by row: the same pictures give the same digits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,76 +34,21 @@ pub struct Errors {
     /// 99.9th percentile (nearest rank) of `|x − r| / √(r² + 0.01)`, the root of the terms of
     /// `rel_mse`: what spikes do, which means hardly show.
     pub rel_p999: f64,
+    /// `rel_mse` without the largest 0.1 % of its terms, those above the percentile of `rel_p999`: what a few
+    /// spikes do not decide. Unknown of pictures compared before there was this metric.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rel_mse_trimmed: Option<f64>,
+    /// Mean ꟻLIP difference (Andersson et al. 2020), in `[0, 1]`, as an observer sees it who has 67 pixels a
+    /// degree. It is defined on what a display shows: unknown of linear values, and of pictures compared before
+    /// there was this metric.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flip: Option<f64>,
 }
-
-/// A metric as tables and lists show it.
-#[derive(Clone, Copy, Debug)]
-pub struct MetricInfo {
-    /// Its name in files and on the command line, that of the field of [`Errors`].
-    pub id: &'static str,
-    /// What it computes, with x the image and r the reference.
-    pub formula: &'static str,
-    /// Whether a smaller value is a better picture.
-    pub smaller_is_better: bool,
-    /// Its value.
-    pub value: fn(&Errors) -> f64,
-}
-
-/// Every metric, in the order of the tables.
-pub const METRICS: &[MetricInfo] = &[
-    MetricInfo {
-        id: "rmse",
-        formula: "sqrt(mean((x - r)^2))",
-        smaller_is_better: true,
-        value: |errors| errors.rmse,
-    },
-    MetricInfo {
-        id: "mse",
-        formula: "mean((x - r)^2)",
-        smaller_is_better: true,
-        value: |errors| errors.mse,
-    },
-    MetricInfo {
-        id: "mae",
-        formula: "mean(|x - r|)",
-        smaller_is_better: true,
-        value: |errors| errors.mae,
-    },
-    MetricInfo {
-        id: "psnr",
-        formula: "10 log10(range^2 / mse) dB; range = largest component of r (linear), 1 (display)",
-        smaller_is_better: false,
-        value: |errors| errors.psnr,
-    },
-    MetricInfo {
-        id: "ssim",
-        formula: "Wang et al. 2004, Gaussian 11x11, sigma = 1.5, K1 = 0.01, K2 = 0.03, per component, \
-                  mean of the valid region",
-        smaller_is_better: false,
-        value: |errors| errors.ssim,
-    },
-    MetricInfo {
-        id: "rel_mse",
-        formula: "mean((x - r)^2 / (r^2 + 0.01))",
-        smaller_is_better: true,
-        value: |errors| errors.rel_mse,
-    },
-    MetricInfo {
-        id: "smape",
-        formula: "mean(|x - r| / (|x| + |r|)), 0/0 = 0",
-        smaller_is_better: true,
-        value: |errors| errors.smape,
-    },
-    MetricInfo {
-        id: "rel_p999",
-        formula: "99.9th percentile, nearest rank, of |x - r| / sqrt(r^2 + 0.01)",
-        smaller_is_better: true,
-        value: |errors| errors.rel_p999,
-    },
-];
 
 /// ε of [`Errors::rel_mse`] and [`Errors::rel_p999`].
 const RELATIVE_EPSILON: f64 = 0.01;
+/// Share of the components that [`Errors::rel_p999`] and [`Errors::rel_mse_trimmed`] are of.
+const RELATIVE_SHARE: f64 = 0.999;
 
 /// Compares the values as they are. `range` is the peak of [`Errors::psnr`] and the dynamic range L
 /// of [`Errors::ssim`], in the unit of the values.
@@ -122,8 +67,9 @@ pub fn compare(
         return Err(Error::Range(range));
     }
     let sums = Sums::over(image, reference);
-    let count = (3 * image.pixels.len()) as f64;
+    let count = components(image);
     let mse = sums.squared / count;
+    let (rel_p999, rel_mse_trimmed) = without_spikes(image, reference);
     Ok(Errors {
         rmse: mse.sqrt(),
         mse,
@@ -132,7 +78,9 @@ pub fn compare(
         ssim: ssim::mean(image, reference, range),
         rel_mse: sums.relative_squared / count,
         smape: sums.symmetric / count,
-        rel_p999: relative_percentile(image, reference, 0.999),
+        rel_p999,
+        rel_mse_trimmed: Some(rel_mse_trimmed),
+        flip: None,
     })
 }
 
@@ -148,7 +96,7 @@ pub fn compare_linear(image: &RadianceImage, reference: &RadianceImage) -> Resul
 }
 
 /// Compares both pictures as [`RadianceImage::display`] shows them at one `exposure` (m²·sr·W⁻¹):
-/// sRGB values in `[0, 1]`, range 1.
+/// sRGB values in `[0, 1]`, range 1. Here alone [`Errors::flip`] is known.
 ///
 /// # Errors
 /// As [`compare`] for the linear pictures, and where `exposure` is not finite and above zero.
@@ -157,11 +105,39 @@ pub fn compare_display(
     reference: &RadianceImage,
     exposure: f32,
 ) -> Result<Errors, Error> {
+    let [image, reference] = displayed(image, reference, exposure)?;
+    let errors = compare(&image, &reference, 1.0)?;
+    Ok(Errors { flip: Some(flip::mean(&image, &reference)), ..errors })
+}
+
+/// [`Errors::rmse`] of [`compare_display`] alone, in much less time.
+///
+/// # Errors
+/// As [`compare_display`].
+pub fn display_rmse(
+    image: &RadianceImage,
+    reference: &RadianceImage,
+    exposure: f32,
+) -> Result<f64, Error> {
+    let [image, reference] = displayed(image, reference, exposure)?;
+    Ok((Sums::over(&image, &reference).squared / components(&image)).sqrt())
+}
+
+/// Both pictures as they are shown.
+fn displayed(
+    image: &RadianceImage,
+    reference: &RadianceImage,
+    exposure: f32,
+) -> Result<[RadianceImage; 2], Error> {
     check(image, reference)?;
     if !(exposure.is_finite() && exposure > 0.0) {
         return Err(Error::Exposure(exposure));
     }
-    compare(&image.display(exposure), &reference.display(exposure), 1.0)
+    Ok([image, reference].map(|picture| picture.display(exposure)))
+}
+
+fn components(image: &RadianceImage) -> f64 {
+    (3 * image.pixels.len()) as f64
 }
 
 fn check(image: &RadianceImage, reference: &RadianceImage) -> Result<(), Error> {
@@ -179,15 +155,25 @@ fn check(image: &RadianceImage, reference: &RadianceImage) -> Result<(), Error> 
     reference.check_finite("reference")
 }
 
-/// The smallest relative error that at least `share` of the components do not exceed.
-fn relative_percentile(image: &RadianceImage, reference: &RadianceImage, share: f64) -> f64 {
+/// The smallest relative error that [`RELATIVE_SHARE`] of the components do not exceed, and the mean square of
+/// those that share has.
+fn without_spikes(image: &RadianceImage, reference: &RadianceImage) -> (f64, f64) {
     let components = image.pixels.as_flattened().iter().zip(reference.pixels.as_flattened());
-    let mut errors: Vec<f64> = components
+    let errors: Vec<f64> = components
         .map(|(&x, &r)| (f64::from(x), f64::from(r)))
         .map(|(x, r)| (x - r).abs() / (r * r + RELATIVE_EPSILON).sqrt())
         .collect();
-    let rank = (share * errors.len() as f64).ceil() as usize;
-    *errors.select_nth_unstable_by(rank.saturating_sub(1), f64::total_cmp).1
+    let kept = ((RELATIVE_SHARE * errors.len() as f64).ceil() as usize).max(1);
+    let largest = *errors.clone().select_nth_unstable_by(kept - 1, f64::total_cmp).1;
+    // In the order of the pixels, which no way of sorting changes; of equal ones as many as are left to keep.
+    let (mut sum, mut smaller) = (0.0, 0);
+    for row in errors.chunks_exact(3 * image.width as usize) {
+        let below = row.iter().filter(|&&error| error < largest);
+        smaller += below.clone().count();
+        sum += below.map(|error| error * error).sum::<f64>();
+    }
+    let equal = (kept - smaller) as f64;
+    (largest, (sum + equal * largest * largest) / kept as f64)
 }
 
 /// Sums over the components of some pixels.

@@ -13,7 +13,9 @@ mod exr_layers;
 mod exr_window;
 mod false_color;
 mod file;
+mod flip;
 mod image;
+mod metric_list;
 mod png_file;
 mod srgb;
 mod ssim;
@@ -21,10 +23,11 @@ mod ssim;
 /// Of the metrics: raised whenever the same pictures give other errors.
 pub const METRICS_VERSION: u32 = 1;
 
-pub use compare::{Errors, METRICS, MetricInfo, compare, compare_display, compare_linear};
+pub use compare::{Errors, compare, compare_display, compare_linear, display_rmse};
 pub use error::Error;
 pub use exr_file::read_exr_pair;
 pub use exr_layers::write_exr_layers;
 pub use exr_window::Window;
 pub use false_color::false_color;
 pub use image::RadianceImage;
+pub use metric_list::{METRICS, MetricInfo};

@@ -1,4 +1,4 @@
-//! Every metric against numpy and scikit-image; `scripts/metrics-fixtures` made the expected values.
+//! Every metric against numpy, scikit-image and NVIDIA's FLIP 1.7; `scripts/metrics-fixtures` made the expected values.
 
 use std::collections::BTreeMap;
 
@@ -34,18 +34,36 @@ fn fixture(name: &str) -> (RadianceImage, RadianceImage, f32) {
             let values = noise(24, 24, 9);
             (map(&values, dark(16.0)), map(&values, dark(24.0)), 2048.0)
         }
+        "shifted" => {
+            let bars = |moved| {
+                picture(64, 48, move |column, row, component| {
+                    let bar = (column + moved) / 6 + component as u32 * (row / 8);
+                    0.75 * f64::from(bar % 2)
+                })
+            };
+            (bars(1), bars(0), 1.0)
+        }
         "smallest" => (bytes(11, 11, 10), map(&gradient(11, 11), |c| c / 128.0), 1.0),
         _ => panic!("fixture `{name}` is not made here"),
     }
 }
 
-/// The means agree to the rounding of sums in another order, SSIM to the 1e-6 that is asked of it.
-fn assert_agrees(label: &str, id: &str, found: f64, expected: Option<f64>) {
-    let Some(expected) = expected else {
-        assert_eq!((id, found), ("psnr", f64::INFINITY), "{label}");
+/// The means agree to the rounding of sums in another order, SSIM to the 1e-6 that is asked of it. The tool for
+/// FLIP computes in single precision, of which the root of a feature that is none makes 4e-5; with another white
+/// (0.31271, 0.32902) that is 1e-5 of the rest.
+fn assert_agrees(label: &str, id: &str, found: Option<f64>, expected: Option<f64>) {
+    let (Some(found), Some(expected)) = (found, expected) else {
+        let infinite = id == "psnr" && found == Some(f64::INFINITY) && expected.is_none();
+        let undefined =
+            id == "flip" && label.ends_with("linear") && (found, expected) == (None, None);
+        assert!(infinite || undefined, "{label}: {id} is {found:?}, expected {expected:?}");
         return;
     };
-    let tolerance = if id == "ssim" { 1e-6 } else { 1e-9 * expected.abs() };
+    let tolerance = match id {
+        "ssim" => 1e-6,
+        "flip" => 5e-5,
+        _ => 1e-9 * expected.abs(),
+    };
     assert!(
         (found - expected).abs() <= tolerance,
         "{label}: {id} is {found}, expected {expected} within {tolerance}"
@@ -53,10 +71,10 @@ fn assert_agrees(label: &str, id: &str, found: f64, expected: Option<f64>) {
 }
 
 #[test]
-fn metrics_agree_with_numpy_and_scikit_image() {
+fn metrics_agree_with_numpy_scikit_image_and_flip() {
     let expected: BTreeMap<String, BTreeMap<String, Value>> =
         serde_json::from_str(include_str!("fixtures.json")).expect("valid JSON");
-    assert_eq!(expected.len(), 9);
+    assert_eq!(expected.len(), 10);
     for (name, values) in &expected {
         let (image, reference, exposure) = fixture(name);
         let linear = compare_linear(&image, &reference).expect("comparable");

@@ -2,7 +2,7 @@
 
 use crate::common::{combine, map, noise, picture};
 use manylights_metrics::{Error, Errors, METRICS, RadianceImage, compare, compare_display};
-use manylights_metrics::{compare_linear, false_color};
+use manylights_metrics::{compare_linear, display_rmse, false_color};
 use proptest::prelude::*;
 
 /// A picture of 12×13 pixels in `[0, 1)`.
@@ -31,7 +31,8 @@ proptest! {
         for found in [errors(&a, &a, 1.0), compare_display(&a, &a, exposure).expect("comparable")] {
             prop_assert_eq!((found.rmse, found.mse, found.mae), (0.0, 0.0, 0.0));
             prop_assert_eq!((found.rel_mse, found.smape, found.psnr), (0.0, 0.0, f64::INFINITY));
-            prop_assert_eq!(found.rel_p999, 0.0);
+            prop_assert_eq!((found.rel_p999, found.rel_mse_trimmed), (0.0, Some(0.0)));
+            prop_assert!(found.flip.is_none_or(|flip| flip == 0.0), "FLIP {:?}", found.flip);
             prop_assert!((found.ssim - 1.0).abs() < 1e-12, "ssim {}", found.ssim);
         }
     }
@@ -57,8 +58,12 @@ proptest! {
         let more = errors(&noisy(small * factor), &reference, 1.0);
         for metric in METRICS {
             let (less, more) = ((metric.value)(&less), (metric.value)(&more));
+            if metric.display_alone {
+                prop_assert_eq!((less, more), (None, None));
+                continue;
+            }
             let grows = if metric.smaller_is_better { less < more } else { less > more };
-            prop_assert!(grows, "{}: {} then {}", metric.id, less, more);
+            prop_assert!(grows, "{}: {:?} then {:?}", metric.id, less, more);
         }
     }
 
@@ -70,6 +75,19 @@ proptest! {
         prop_assert!((0.0..=1.0).contains(&found.smape));
         prop_assert!((-1.0..=1.0).contains(&found.ssim));
         prop_assert!(found.rel_mse >= 0.0 && found.rel_mse.is_finite());
+        // Nothing is cut off so few components: these are two ways of rounding.
+        let trimmed = found.rel_mse_trimmed.expect("known");
+        prop_assert!((trimmed - found.rel_mse).abs() <= 1e-12 * found.rel_mse);
+    }
+
+    /// Also of pictures that a display clips.
+    #[test]
+    fn flip_is_symmetric_and_at_most_one(a: u64, b: u64, exposure in 0.01_f32..100.0) {
+        let (a, b) = (random(a), random(b));
+        let flip = |a, b| compare_display(a, b, exposure).expect("comparable").flip.expect("of displays");
+        let (forth, back) = (flip(&a, &b), flip(&b, &a));
+        prop_assert_eq!(forth, back);
+        prop_assert!((0.0..=1.0).contains(&forth), "{}", forth);
     }
 }
 
@@ -113,6 +131,51 @@ fn pictures_that_cannot_be_compared_say_why() {
         assert!(message(compare(&good, &good, nothing)).contains("range"));
         assert!(message(compare_display(&good, &good, nothing as f32)).contains("exposure"));
     }
+}
+
+/// Bit for bit, since checkpoints lie on curves with whole comparisons.
+#[test]
+fn the_rmse_alone_is_that_of_all_metrics() {
+    let (image, reference) = (random(1), random(2));
+    let all = compare_display(&image, &reference, 0.7).expect("comparable");
+    assert_eq!(display_rmse(&image, &reference, 0.7).expect("comparable"), all.rmse);
+    let message =
+        |exposure| display_rmse(&image, &reference, exposure).expect_err("none").to_string();
+    assert!(message(0.0).contains("exposure"));
+    assert!(display_rmse(&image, &RadianceImage::black(13, 12), 1.0).is_err());
+}
+
+/// Nothing lies further apart than green and blue, and nothing distracts from them where no edge is.
+#[test]
+fn green_and_blue_differ_by_one() {
+    let plain =
+        |shown| picture(24, 20, move |_, _, component| f64::from(u8::from(component == shown)));
+    let flip = compare_display(&plain(1), &plain(2), 1.0).expect("comparable").flip;
+    assert!(flip.is_some_and(|flip| (flip - 1.0).abs() < 1e-12), "{flip:?}");
+}
+
+/// One pixel has 3 of 4800 components, and 4 are cut off.
+#[test]
+fn trimming_removes_fireflies_and_nothing_else() {
+    let (reference, noise) = (picture(40, 40, |_, _, _| 1.0), picture(40, 40, |_, _, _| 1.5));
+    let mut spiked = noise.clone();
+    spiked.pixels[77] = [1000.0, 2000.0, 500.0];
+    let [plain, spiked] = [noise, spiked].map(|image| errors(&image, &reference, 1.0));
+    assert!(spiked.rel_mse > 100.0 * plain.rel_mse);
+    let [plain, spiked] = [plain, spiked].map(|errors| errors.rel_mse_trimmed.expect("known"));
+    assert!((plain - 0.25 / 1.01).abs() < 1e-12 && (spiked - plain).abs() < 1e-12, "{spiked}");
+}
+
+/// What was written before there were these metrics.
+#[test]
+fn errors_without_the_new_metrics_are_read() {
+    let found = errors(&random(1), &random(2), 1.0);
+    let mut json = serde_json::to_value(found).expect("serialisable");
+    let fields = json.as_object_mut().expect("an object");
+    assert!(fields.remove("rel_mse_trimmed").is_some_and(|value| value.is_f64()));
+    assert!(!fields.contains_key("flip"), "of linear values");
+    let old: Errors = serde_json::from_value(json).expect("valid");
+    assert_eq!(old, Errors { rel_mse_trimmed: None, flip: None, ..found });
 }
 
 #[test]

@@ -4,6 +4,7 @@ pub(crate) mod across;
 pub(crate) mod bias;
 #[cfg(test)]
 mod coverage_test;
+pub(crate) mod error_column;
 pub(crate) mod error_scale;
 pub(crate) mod ranks;
 pub(crate) mod regression;

@@ -166,7 +166,9 @@ mod tests {
 
     fn cell(seed: u64, rmse: f64, program: &str) -> Cell {
         let [mse, mae, psnr, ssim, rel_mse, smape, rel_p999] = [0.0; 7];
-        let errors = Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999 };
+        let (rel_mse_trimmed, flip) = (None, None);
+        let errors =
+            Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999, rel_mse_trimmed, flip };
         let comparison = Comparison {
             linear: errors,
             display: errors,

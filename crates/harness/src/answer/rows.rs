@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use manylights_metrics::{Errors, METRICS};
+use manylights_metrics::Errors;
 
 use crate::answer::bias::{self, Split};
 use crate::answer::ranks::Rank;
@@ -196,7 +196,7 @@ impl Quantity {
     /// Ours.
     pub(crate) fn value(&self, of: &Medians, baseline: Option<&Medians>) -> Option<f64> {
         match self {
-            Self::Error(metric, reference) => Some((metric.value)(&of.errors[reference].display)),
+            Self::Error(metric, reference) => (metric.value)(&of.errors[reference].display),
             Self::TimeRatio => Some(of.seconds.median / baseline?.seconds.median),
         }
     }
@@ -286,20 +286,25 @@ fn errors_over_seeds(pictures: &[(u64, &Done)], reference: &str) -> Comparison {
     let middle = |value: &dyn Fn(&Comparison) -> f64| {
         median(comparisons.iter().map(|c| value(c))).expect("every picture is compared with it")
     };
+    let known = |value: &dyn Fn(&Comparison) -> Option<f64>| {
+        median(comparisons.iter().map(|c| value(c)).collect::<Option<Vec<_>>>()?)
+    };
     let errors = |side: fn(&Comparison) -> &Errors| {
         let mse = mean(comparisons.iter().map(|c| side(c).mse));
         // That of a seed is a constant less its own logarithm.
-        let known = comparisons.iter().map(|c| side(c)).find(|errors| errors.mse > 0.0);
+        let positive = comparisons.iter().map(|c| side(c)).find(|errors| errors.mse > 0.0);
         let psnr = |errors: &Errors| errors.psnr + 10.0 * (errors.mse / mse).log10();
         Errors {
             rmse: mse.sqrt(),
             mse,
-            psnr: known.map_or(f64::INFINITY, psnr),
+            psnr: positive.map_or(f64::INFINITY, psnr),
             mae: middle(&|c| side(c).mae),
             ssim: middle(&|c| side(c).ssim),
             rel_mse: middle(&|c| side(c).rel_mse),
             smape: middle(&|c| side(c).smape),
             rel_p999: middle(&|c| side(c).rel_p999),
+            rel_mse_trimmed: known(&|c| side(c).rel_mse_trimmed),
+            flip: known(&|c| side(c).flip),
         }
     };
     Comparison {
@@ -309,9 +314,4 @@ fn errors_over_seeds(pictures: &[(u64, &Done)], reference: &str) -> Comparison {
         display_floor: middle(&|c| c.display_floor),
         tiles: None,
     }
-}
-
-/// The value of each metric, for files that hold them all.
-pub(crate) fn values(errors: &Errors) -> impl Iterator<Item = (&'static str, f64)> {
-    METRICS.iter().map(move |metric| (metric.id, (metric.value)(errors)))
 }

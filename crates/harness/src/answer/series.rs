@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use manylights_method::Cost;
 use plotters::style::RGBColor;
 
+use crate::answer::error_column::ErrorColumn;
 use crate::answer::rows::{Medians, Row, SceneAnswer};
 use crate::answer::significance::Estimate;
 use crate::measurement::cell::Checkpoint;
@@ -37,8 +38,9 @@ pub(crate) struct Point {
     pub(crate) amount: Option<f64>,
     /// Median time of the work, with its quartiles.
     pub(crate) seconds: [f64; 3],
-    /// RMSE of sRGB values over all seeds without the noise of the reference, with its 95 % interval.
-    pub(crate) rmse: [f64; 3],
+    /// RMSE of sRGB values over all seeds without the noise of the reference, with its 95 % interval; or another
+    /// error alone.
+    pub(crate) error: [f64; 3],
 }
 
 /// The curves of an experiment, in the order of its variants, for each machine that ran cells.
@@ -105,6 +107,27 @@ impl Series {
             let mut between = checkpoints(&runs, cost, reference);
             between.retain(|point| !known.contains(&point.amount));
             points.extend(between);
+        }
+        self.in_order(points)
+    }
+
+    /// The same with another error: of whole pictures alone, as the median over seeds, the noise of the
+    /// reference included.
+    pub(crate) fn points_by(
+        &self,
+        scene: &SceneAnswer,
+        reference: &str,
+        column: ErrorColumn,
+    ) -> Vec<Point> {
+        let point = |medians: &&Medians| {
+            let error = column.of(medians.errors.get(reference)?)?;
+            Some(Point { error: [error; 3], ..self.point(medians, reference)? })
+        };
+        self.in_order(self.runs(scene).iter().filter_map(point).collect())
+    }
+
+    fn in_order(&self, mut points: Vec<Point>) -> Vec<Point> {
+        if let Some(cost) = self.along {
             points.sort_by(|a, b| work(cost, a.amount).total_cmp(&work(cost, b.amount)));
         }
         points
@@ -119,7 +142,7 @@ impl Series {
         Some(Point {
             amount: counted.map(|&count| count as f64).or(medians.amount),
             seconds: [seconds.median, seconds.lower, seconds.upper],
-            rmse: [rmse, lower, upper],
+            error: [rmse, lower, upper],
         })
     }
 
@@ -160,7 +183,7 @@ fn checkpoints(runs: &[&Medians], cost: Cost, reference: &str) -> Vec<Point> {
         let squared = checkpoint.display_rmse.get(reference)?.powi(2) - floor.powi(2);
         let rmse = squared.max(0.0).sqrt();
         let seconds = [checkpoint.step_seconds; 3];
-        Some(Point { amount: Some(checkpoint.amount), seconds, rmse: [rmse; 3] })
+        Some(Point { amount: Some(checkpoint.amount), seconds, error: [rmse; 3] })
     };
     longest.checkpoints.iter().filter_map(point).collect()
 }
@@ -178,18 +201,18 @@ pub(crate) enum Reached {
 
 /// When a curve first falls to an error.
 pub(crate) fn time_to_reach(points: &[Point], error: f64) -> Reached {
-    let Some(reached) = points.iter().position(|point| point.rmse[0] <= error) else {
+    let Some(reached) = points.iter().position(|point| point.error[0] <= error) else {
         return Reached::Never;
     };
     let end = points[reached];
     let Some(start) = reached.checked_sub(1).map(|before| points[before]) else {
         return Reached::Before(end.seconds[0]);
     };
-    if end.rmse[0] == 0.0 {
+    if end.error[0] == 0.0 {
         // No logarithm leads there.
         return Reached::Before(end.seconds[0]);
     }
-    let share = (start.rmse[0] / error).ln() / (start.rmse[0] / end.rmse[0]).ln();
+    let share = (start.error[0] / error).ln() / (start.error[0] / end.error[0]).ln();
     Reached::At(start.seconds[0] * (end.seconds[0] / start.seconds[0]).powf(share))
 }
 
@@ -200,14 +223,14 @@ mod tests {
     #[test]
     fn a_power_law_is_read_off_exactly() {
         // RMSE = t^(−1/2).
-        let at = |t: f64| Point { amount: Some(1.0), seconds: [t; 3], rmse: [t.powf(-0.5); 3] };
+        let at = |t: f64| Point { amount: Some(1.0), seconds: [t; 3], error: [t.powf(-0.5); 3] };
         let points = [at(1.0), at(4.0), at(100.0)];
         let Reached::At(seconds) = time_to_reach(&points, 0.2) else { panic!("reached") };
         assert!((seconds - 25.0).abs() < 1e-9, "{seconds}");
         assert_eq!(time_to_reach(&points, 2.0), Reached::Before(1.0));
         assert_eq!(time_to_reach(&points, 0.05), Reached::Never);
         assert_eq!(time_to_reach(&[], 0.05), Reached::Never);
-        let perfect = Point { amount: Some(1.0), seconds: [9.0; 3], rmse: [0.0; 3] };
+        let perfect = Point { amount: Some(1.0), seconds: [9.0; 3], error: [0.0; 3] };
         assert_eq!(time_to_reach(&[at(1.0), perfect], 0.05), Reached::Before(9.0));
     }
 }

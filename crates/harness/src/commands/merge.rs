@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &MergeArguments, methods: Methods) -> Result<(), Fa
     }
     let Loaded { experiment, scenes } = report::load(out, methods)?;
     let command = report::command(&out.join("experiment.toml"), &experiment, None);
-    answer_files::write(&experiment, &scenes, command, out)?;
+    answer_files::write(&experiment, &scenes, command, None, out)?;
     Ok(())
 }
 

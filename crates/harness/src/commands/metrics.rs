@@ -36,10 +36,13 @@ pub(crate) fn run(arguments: &MetricsArguments) -> Result<(), Failure> {
         let report = json!({ "linear": linear, "display": display, "exposure": exposure });
         return print_json(&report);
     }
-    say(format_args!("{:<8} {:>12} {:>12}  formula", "metric", "linear", "display"));
+    say(format_args!("{:<15} {:>12} {:>12}  formula", "metric", "linear", "display"));
     for metric in METRICS {
-        let [linear, display] = [&linear, &display].map(|errors| (metric.value)(errors));
-        say(format_args!("{:<8} {linear:>12.6} {display:>12.6}  {}", metric.id, metric.formula));
+        let [linear, display] = [&linear, &display].map(|errors| match (metric.value)(errors) {
+            Some(value) => format!("{value:.6}"),
+            None => "—".to_owned(),
+        });
+        say(format_args!("{:<15} {linear:>12} {display:>12}  {}", metric.id, metric.formula));
     }
     say(format_args!(
         "linear: radiance in W m^-2 sr^-1; display: sRGB values in [0, 1] at exposure {exposure}"

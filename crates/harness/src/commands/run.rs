@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use manylights_scene::Scene;
 
+use crate::answer::error_column::ErrorColumn;
 use crate::answer::rows::{RowResult, SceneAnswer};
 use crate::commands::machine::Machine;
 use crate::error::Failure;
@@ -38,6 +39,10 @@ pub(crate) struct RunArguments {
     /// Folder of references [default: manylights/references in the user's cache folder]
     #[arg(long, value_name = "DIR", env = "MANYLIGHTS_CACHE")]
     pub(crate) cache: Option<PathBuf>,
+    /// Error of the curves, by its column in table.csv, as display_flip [default: RMSE of sRGB values
+    /// without the noise of the reference]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) metric: Option<ErrorColumn>,
     #[command(flatten)]
     pub(crate) machine: Machine,
 }
@@ -73,7 +78,7 @@ pub(crate) fn run(arguments: &RunArguments, methods: Methods) -> Result<(), Fail
     }
     let (scenes, all_cells): (Vec<_>, Vec<_>) = all_cells.into_iter().unzip();
     let command = report::command(file, &experiment, arguments.out.as_deref());
-    let answers = answer_files::write(&experiment, &all_cells, command, out)?;
+    let answers = answer_files::write(&experiment, &all_cells, command, arguments.metric, out)?;
     for ((scene, cells), answer) in scenes.into_iter().zip(&all_cells).zip(&answers) {
         layers::write(&experiment, scene, cells, answer, [&cache, out])?;
     }

@@ -229,6 +229,8 @@ mod tests {
             rel_mse: 0.3,
             smape: 0.2,
             rel_p999: 0.9,
+            rel_mse_trimmed: Some(0.2),
+            flip: None,
         };
         let comparison = Comparison {
             linear: errors,

@@ -5,7 +5,7 @@ mod files;
 use std::path::Path;
 
 use manylights_method::Run;
-use manylights_metrics::{RadianceImage, compare_display, compare_linear};
+use manylights_metrics::{RadianceImage, compare_display, compare_linear, display_rmse};
 use manylights_path_tracer as path_tracer;
 use manylights_scene::{Scene, Visibility};
 
@@ -197,6 +197,18 @@ impl SceneReference {
             display_floor: self.display_floor,
             tiles: None,
         })
+    }
+
+    /// RMSE of sRGB values of a picture of this seed, alone: what checkpoints need.
+    ///
+    /// # Errors
+    /// As [`Self::compare`].
+    pub(crate) fn display_rmse(
+        &self,
+        image: &RadianceImage,
+        seed: u64,
+    ) -> Result<f64, manylights_metrics::Error> {
+        display_rmse(image, self.image_for(seed), self.exposure)
     }
 
     /// The squared errors of a picture of this seed by tile.

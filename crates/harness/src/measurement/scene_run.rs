@@ -242,10 +242,13 @@ impl SceneRun<'_, '_> {
             if method.is_progressive() && progress.done >= next && !progress.finished() {
                 next = 2 * progress.done;
                 let image = stage.completed(run.resolve()?);
-                let errors = compare(references, &image, turn.seed)
-                    .map_err(|error| Error::Failed(error.to_string()))?;
-                let rmse = |(name, errors): (String, Comparison)| (name, errors.display.rmse);
-                let display_rmse = errors.into_iter().map(rmse).collect();
+                let rmse = |reference: &SceneReference| {
+                    Ok((reference.name.clone(), reference.display_rmse(&image, turn.seed)?))
+                };
+                let display_rmse: Result<_, manylights_metrics::Error> =
+                    references.iter().map(rmse).collect();
+                let display_rmse =
+                    display_rmse.map_err(|error| Error::Failed(error.to_string()))?;
                 checkpoints.push(Checkpoint {
                     amount: progress.done as f64,
                     step_seconds,

@@ -93,7 +93,8 @@ fn check_comparison(comparison: &Comparison) -> Result<(), String> {
     let Comparison { linear, display, linear_floor, display_floor, tiles } = comparison;
     tiles.iter().try_for_each(check_tiles)?;
     for (errors, most) in [(linear, MOST_ERROR), (display, 1.0)] {
-        let Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999 } = *errors;
+        let Errors { rmse, mse, mae, psnr, ssim, rel_mse, smape, rel_p999, rel_mse_trimmed, flip } =
+            *errors;
         within("rmse", rmse, 0.0, most)?;
         within("mse", mse, 0.0, most)?;
         within("mae", mae, 0.0, most)?;
@@ -101,6 +102,9 @@ fn check_comparison(comparison: &Comparison) -> Result<(), String> {
         within("rel_mse", rel_mse, 0.0, MOST_ERROR)?;
         within("smape", smape, 0.0, 1.0)?;
         within("rel_p999", rel_p999, 0.0, MOST_ERROR)?;
+        // Unknown of older lines.
+        within("rel_mse_trimmed", rel_mse_trimmed.unwrap_or_default(), 0.0, MOST_ERROR)?;
+        within("flip", flip.unwrap_or_default(), 0.0, 1.0)?;
         // Of identical pictures it is infinite.
         if mse > 0.0 || psnr != f64::INFINITY {
             within("psnr", psnr, -MOST_DECIBELS, MOST_DECIBELS)?;
@@ -161,6 +165,8 @@ pub(crate) mod tests {
             rel_mse: 0.3,
             smape: 0.2,
             rel_p999: 0.9,
+            rel_mse_trimmed: Some(0.2),
+            flip: Some(0.15),
         };
         let comparison = Comparison {
             linear: errors,
@@ -212,7 +218,7 @@ pub(crate) mod tests {
     fn absurd_outcomes_are_named() {
         assert_eq!(check(&done_cell(1)), Ok(()));
         type Edit = fn(&mut Done);
-        let edits: [(Edit, &str); 12] = [
+        let edits: [(Edit, &str); 14] = [
             (|done| done.step_seconds = -1.0, "step_seconds"),
             (|done| done.step_seconds = 0.0, "step_seconds"),
             (|done| done.prepare_seconds = f64::NAN, "prepare_seconds"),
@@ -225,6 +231,8 @@ pub(crate) mod tests {
             (|done| edit_errors(done, |errors| errors.psnr = f64::INFINITY), "psnr"),
             (|done| edit_errors(done, |errors| errors.rmse = f64::NEG_INFINITY), "rmse"),
             (|done| edit_errors(done, |errors| errors.ssim = 7.0), "ssim"),
+            (|done| edit_errors(done, |errors| errors.flip = Some(1.5)), "flip"),
+            (|done| edit_errors(done, |errors| errors.rel_mse_trimmed = Some(-1.0)), "trimmed"),
         ];
         for (edit, said) in edits {
             let mut cell = done_cell(1);

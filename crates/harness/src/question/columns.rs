@@ -34,6 +34,14 @@ pub(crate) enum Column {
     Ssim,
     /// RMSE of radiance, without the noise of the reference.
     RmseLinear,
+    /// Mean absolute error of sRGB values; this and the three below in no table that does not ask for them.
+    Mae,
+    /// Mean FLIP difference.
+    Flip,
+    /// Relative mean squared error of radiance.
+    RelMse,
+    /// The same without the largest 0.1 % of its terms.
+    RelMseTrimmed,
     /// 99.9th percentile of the relative error of radiance: spikes.
     Spikes,
 }
@@ -73,6 +81,10 @@ impl Column {
             Self::Psnr => "PSNR dB",
             Self::Ssim => "SSIM",
             Self::RmseLinear => "RMSE linear",
+            Self::Mae => "MAE",
+            Self::Flip => "FLIP",
+            Self::RelMse => "relMSE",
+            Self::RelMseTrimmed => "relMSE trimmed",
             Self::Spikes => "p99.9 relative",
         }
     }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::answer::error_column::ErrorColumn;
 use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
 use crate::measurement::scene_cells::SceneCells;
@@ -26,7 +27,8 @@ fn sheet_name(scene: &str) -> String {
 }
 
 /// Condenses the cells of `out`, whose pictures are there, writes all files of the answer beside them
-/// and names these. `command` is what makes the results again.
+/// and names these. `command` is what makes the results again; curves are of the RMSE unless another
+/// error is asked for.
 ///
 /// # Errors
 /// One line where a picture cannot be read or a file cannot be written.
@@ -34,6 +36,7 @@ pub(crate) fn write(
     experiment: &Experiment,
     cells: &[SceneCells],
     command: String,
+    curves_error: Option<ErrorColumn>,
     out: &Path,
 ) -> Result<Vec<SceneAnswer>, Failure> {
     let machine = SceneCells::provenance(cells).expect("an answer is there for its cells");
@@ -41,7 +44,7 @@ pub(crate) fn write(
         .iter()
         .map(|cells| SceneAnswer::new(experiment, cells, out))
         .collect::<Result<_, _>>()?;
-    let figure = Figure::new(experiment, &answers);
+    let figure = Figure::new(experiment, &answers, curves_error);
     let contents = [
         table::markdown(experiment, &answers, machine).into_bytes(),
         table::latex(experiment, &answers, machine).into_bytes(),
@@ -58,6 +61,6 @@ pub(crate) fn write(
         output::write(&path, &bytes)?;
         say(path.display());
     }
-    Report { experiment, cells, answers: &answers, machine, command }.write(out)?;
+    Report { experiment, cells, answers: &answers, machine, command, curves_error }.write(out)?;
     Ok(answers)
 }

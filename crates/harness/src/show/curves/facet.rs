@@ -7,6 +7,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axes::{Axis, axis, bounds, label};
 use super::canvas::{Canvas, Drawn, FLOOR, FONT, TEXT};
+use crate::answer::error_column::ErrorColumn;
 use crate::answer::rows::SceneAnswer;
 use crate::answer::series::{Point, Series};
 use crate::question::experiment::Experiment;
@@ -47,6 +48,8 @@ impl Against {
 /// A plot with its curves.
 pub(super) struct Facet {
     title: String,
+    /// Of the axis of errors.
+    error_title: String,
     against: Against,
     floor: Option<f64>,
     /// One for each series.
@@ -69,12 +72,13 @@ impl Facet {
         experiment: &Experiment,
         scenes: &[SceneAnswer],
         series: &[Series],
+        error: Option<ErrorColumn>,
     ) -> Vec<Self> {
         let mut facets = Vec::new();
         for scene in scenes {
             for reference in experiment.references.iter().map(|reference| &reference.name) {
                 for against in Against::ALL {
-                    facets.push(Self::new(scene, reference, series, against));
+                    facets.push(Self::new(scene, reference, series, error, against));
                 }
             }
         }
@@ -95,21 +99,35 @@ impl Facet {
         facets
     }
 
-    fn new(scene: &SceneAnswer, reference: &str, series: &[Series], against: Against) -> Self {
+    fn new(
+        scene: &SceneAnswer,
+        reference: &str,
+        series: &[Series],
+        error: Option<ErrorColumn>,
+        against: Against,
+    ) -> Self {
         let curve = |series: &Series| {
-            let points = series.points(scene, reference).into_iter();
+            let points = match error {
+                Some(column) => series.points_by(scene, reference, column),
+                None => series.points(scene, reference),
+            };
             // Zero has no place on a logarithmic axis: a bar that would reach it ends a decade below.
             let mark = |point: Point| {
-                let [error, lower, upper] = point.rmse;
+                let [error, lower, upper] = point.error;
                 Some(Mark { x: against.of(&point)?, y: [error, lower.max(0.1 * error), upper] })
             };
-            let marks = points.filter_map(mark);
-            marks.filter(|mark| mark.x[1] > 0.0 && mark.y[1] > 0.0).collect()
+            let marks = points.into_iter().filter_map(mark);
+            marks
+                .filter(|mark| mark.x[1] > 0.0 && mark.y[1] > 0.0 && mark.y[2].is_finite())
+                .collect()
         };
-        let floor = scene.floor(reference).map(|(_, display)| display);
-        let plateau = |series: &Series| series.plateau(scene, reference);
+        // Both are of the RMSE of sRGB values alone.
+        let is_rmse = error.is_none();
+        let floor = scene.floor(reference).map(|(_, display)| display).filter(|_| is_rmse);
+        let plateau = |series: &Series| series.plateau(scene, reference).filter(|_| is_rmse);
         Self {
             title: format!("{}, against {reference}", scene.scene),
+            error_title: error.map_or_else(|| "RMSE of sRGB values".to_owned(), ErrorColumn::title),
             against,
             floor: floor.filter(|&floor| floor > 0.0),
             curves: series.iter().map(curve).collect(),
@@ -130,7 +148,7 @@ impl Facet {
         chart
             .configure_mesh()
             .x_desc(self.against.title())
-            .y_desc("RMSE of sRGB values")
+            .y_desc(self.error_title.as_str())
             .axis_desc_style((FONT, 13, &TEXT))
             .label_style((FONT, 12, &TEXT))
             .x_label_formatter(&|value| label(*value))

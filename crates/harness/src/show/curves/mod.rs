@@ -8,6 +8,7 @@ mod raster;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use crate::answer::error_column::ErrorColumn;
 use crate::answer::rows::SceneAnswer;
 use crate::answer::series::{self, Series};
 use crate::error::Failure;
@@ -32,12 +33,18 @@ pub(crate) struct Figure<'f> {
     experiment: &'f Experiment,
     scenes: &'f [SceneAnswer],
     series: Vec<Series>,
+    error: Option<ErrorColumn>,
 }
 
 impl<'f> Figure<'f> {
-    /// Of an answer.
-    pub(crate) fn new(experiment: &'f Experiment, scenes: &'f [SceneAnswer]) -> Self {
-        Self { experiment, scenes, series: series::of_experiment(experiment, scenes) }
+    /// Of an answer: its RMSE of sRGB values, unless another `error` is asked for.
+    pub(crate) fn new(
+        experiment: &'f Experiment,
+        scenes: &'f [SceneAnswer],
+        error: Option<ErrorColumn>,
+    ) -> Self {
+        let series = series::of_experiment(experiment, scenes);
+        Self { experiment, scenes, series, error }
     }
 
     /// For browsers and papers.
@@ -94,7 +101,7 @@ impl<'f> Figure<'f> {
         head.draw(&Text::new(title, (width as i32 / 2, HEAD as i32 / 2), style))?;
         let (plots, legend) = rest.split_vertically(FACET.1 * self.scenes.len() as u32);
         let areas = plots.split_evenly((self.scenes.len(), self.columns()));
-        let facets = Facet::all(self.experiment, self.scenes, &self.series);
+        let facets = Facet::all(self.experiment, self.scenes, &self.series, self.error);
         for (area, facet) in areas.iter().zip(&facets) {
             facet.draw(area, &self.series)?;
         }
@@ -115,6 +122,9 @@ impl<'f> Figure<'f> {
             draw_sample(area, (x, y), dashes(curve.nth), color.stroke_width(2))?;
             area.draw(&(EmptyElement::at((x + 16, y)) + facet::marker(shape, color)))?;
             area.draw(&Text::new(curve.name.clone(), (x + 40, y), text.clone()))?;
+        }
+        if self.error.is_some() {
+            return Ok(());
         }
         let (x, y) = place(self.series.len());
         draw_sample(area, (x, y), Some((6, 4)), FLOOR.stroke_width(1))?;

@@ -14,6 +14,7 @@ use std::path::Path;
 
 use manylights_metrics::{METRICS, RadianceImage, false_color};
 
+use crate::answer::error_column::ErrorColumn;
 use crate::answer::rows::SceneAnswer;
 use crate::error::Failure;
 use crate::measurement::provenance::Provenance;
@@ -56,6 +57,8 @@ pub(crate) struct Report<'a> {
     pub(crate) machine: &'a Provenance,
     /// What makes the results again.
     pub(crate) command: String,
+    /// See [`Figure::new`].
+    pub(crate) curves_error: Option<ErrorColumn>,
 }
 
 impl Report<'_> {
@@ -79,7 +82,7 @@ impl Report<'_> {
             .collect::<Result<_, _>>()?;
         let csv = table::csv(self.experiment, self.answers);
         let data = data::data(self, &pictures, csv).to_string();
-        let curves = Figure::new(self.experiment, self.answers).svg()?;
+        let curves = Figure::new(self.experiment, self.answers, self.curves_error).svg()?;
         // Part of an HTML document, an SVG needs no name of its language.
         let curves = curves.replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
         Ok(fill(

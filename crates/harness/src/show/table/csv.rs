@@ -1,10 +1,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use manylights_metrics::METRICS;
-
+use crate::answer::error_column::ErrorColumn;
 use crate::answer::ranks::Rank;
-use crate::answer::rows::{Row, RowResult, SceneAnswer, values};
+use crate::answer::rows::{Row, RowResult, SceneAnswer};
 use crate::answer::significance::Estimate;
 use crate::question::experiment::Experiment;
 use crate::question::plan::{Budget, Variant};
@@ -20,10 +19,8 @@ pub(crate) fn csv(experiment: &Experiment, scenes: &[SceneAnswer]) -> String {
          display_error_lower,display_error_upper,display_bias,display_bias_lower,display_bias_upper,display_deviation,\
          display_deviation_lower,display_deviation_upper",
     );
-    for space in ["linear", "display"] {
-        for metric in METRICS {
-            let _ = write!(text, ",{space}_{}", metric.id);
-        }
+    for column in ErrorColumn::all() {
+        let _ = write!(text, ",{column}");
     }
     text.push('\n');
     for scene in scenes {
@@ -71,19 +68,20 @@ fn csv_line(
             fields.push(quoted(&passes(&medians.bake_pass_seconds)));
             let numbers =
                 [medians.prepare_seconds, comparison.linear_floor, comparison.display_floor];
-            let metrics = values(&comparison.linear).chain(values(&comparison.display));
             fields.extend(numbers.map(|number| number.to_string()));
             fields.push(sample.mean_squared().sqrt().to_string());
             let ends = sample.interval().map(|ends| ends.map(|end| end.to_string()));
             fields.extend(ends.unwrap_or_default());
             fields.extend(roots(split.map(|split| split.squared_bias)));
             fields.extend(roots(split.map(|split| split.variance)));
-            fields.extend(metrics.map(|(_, value)| value.to_string()));
+            fields.extend(ErrorColumn::all().map(|column| {
+                column.of(comparison).map_or_else(String::new, |value| value.to_string())
+            }));
         }
         RowResult::Declined(reason) => fields.push(quoted(&format!("declined: {reason}"))),
         RowResult::Failed(reason) => fields.push(quoted(&format!("failed: {reason}"))),
     }
-    fields.resize(COLUMNS + 2 * METRICS.len(), String::new());
+    fields.resize(COLUMNS + ErrorColumn::all().count(), String::new());
     fields.join(",")
 }
 

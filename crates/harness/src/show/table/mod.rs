@@ -180,6 +180,10 @@ impl Place<'_> {
             Column::RmseLinear => {
                 short((errors.linear.mse - errors.linear_floor.powi(2)).max(0.0).sqrt())
             }
+            Column::Mae => short(errors.display.mae),
+            Column::Flip => errors.display.flip.map_or_else(String::new, short),
+            Column::RelMse => short(errors.linear.rel_mse),
+            Column::RelMseTrimmed => errors.linear.rel_mse_trimmed.map_or_else(String::new, short),
             Column::Spikes => short(errors.linear.rel_p999),
             Column::Passes => passes(medians),
         }
@@ -318,6 +322,14 @@ pub(crate) fn foot(experiment: &Experiment) -> String {
          be any of these.",
         experiment.variants[experiment.baseline].label()
     );
+    if experiment.columns.iter().any(|column| {
+        matches!(column, Column::Mae | Column::Flip | Column::RelMse | Column::RelMseTrimmed)
+    }) {
+        text.push_str(
+            " MAE and FLIP (Andersson et al. 2020) are of sRGB values, relMSE of radiance, trimmed without the \
+             largest 0.1 % of its terms: medians over seeds, the noise of the reference included.",
+        );
+    }
     if experiment.transport != experiment.transport.estimated() {
         text.push_str(" Direct light is exact and the same in all pictures; no time includes it.");
     }

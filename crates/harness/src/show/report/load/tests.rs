@@ -189,7 +189,7 @@ fn spoilt_lines_end_in_words() {
                     table::csv(&experiment, &answers),
                     table::markdown(&experiment, &answers, machine),
                     table::latex(&experiment, &answers, machine),
-                    Figure::new(&experiment, &answers).svg().expect("a figure"),
+                    Figure::new(&experiment, &answers, None).svg().expect("a figure"),
                 ];
                 assert!(texts.iter().all(|text| !text.contains("NaN")));
             }

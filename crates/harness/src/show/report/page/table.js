@@ -35,11 +35,13 @@ const GROUPS = [
     { id: 'deviation', title: 'deviation', value: (row) => errorsOf(row).deviation, optional: true },
     { id: 'psnr', title: 'PSNR dB', value: (row) => errorsOf(row).display.psnr ?? Infinity, text: (row, value) => (value === Infinity ? '∞' : value.toFixed(2)), best: Math.max },
     { id: 'ssim', title: 'SSIM', value: (row) => errorsOf(row).display.ssim, text: (row, value) => value.toFixed(4), best: Math.max },
+    { id: 'flip', title: 'FLIP', value: (row) => errorsOf(row).display.flip ?? null, best: Math.min, optional: true },
   ]],
   ['error of radiance', [
     { id: 'linear_rmse', title: 'RMSE', value: (row) => errorsOf(row).linear.rmse, best: Math.min },
     { id: 'linear_mae', title: 'MAE', value: (row) => errorsOf(row).linear.mae },
     { id: 'linear_rel_mse', title: 'relMSE', value: (row) => errorsOf(row).linear.rel_mse },
+    { id: 'linear_rel_mse_trimmed', title: 'relMSE trimmed', value: (row) => errorsOf(row).linear.rel_mse_trimmed ?? null, optional: true },
     { id: 'linear_smape', title: 'SMAPE', value: (row) => errorsOf(row).linear.smape },
   ]],
 ];
