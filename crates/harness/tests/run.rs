@@ -80,7 +80,8 @@ fn check_files(folder: &Path) {
     let text = |name: &str| std::fs::read_to_string(out.join(name)).expect(name);
     let markdown = text("table.md");
     assert!(markdown.contains("## cornell") && markdown.contains("noise floor"), "{markdown}");
-    assert_eq!(markdown.matches("reference samples=48").count(), 2, "{markdown}");
+    let (_, of_scene) = markdown.split_once("## cornell").expect("a scene");
+    assert_eq!(of_scene.matches("reference samples=48").count(), 2, "{markdown}");
     let csv = text("table.csv");
     let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
     assert_eq!(columns.len(), 5, "a head, two settings, two references: {csv}");

@@ -56,6 +56,11 @@ impl Estimate {
         self.value.abs() <= self.half
     }
 
+    /// Whether it is, without any chance.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.value == 0.0 && self.half == 0.0
+    }
+
     /// Of a square, as roots: the value, and both ends of the interval.
     pub(crate) fn roots(&self) -> [f64; 3] {
         let Self { value, half } = *self;

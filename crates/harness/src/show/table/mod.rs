@@ -210,7 +210,9 @@ impl Place<'_> {
     fn insignificance(&self) -> &'static str {
         let is_baseline = self.row.variant == self.experiment.baseline;
         let excess = self.scene.excess(self.row, self.reference);
-        if !is_baseline && excess.is_none_or(|excess| excess.holds_zero()) { " ≈" } else { "" }
+        // Of equal pictures nothing is chance.
+        let may_be_chance = excess.is_none_or(|excess| excess.holds_zero() && !excess.is_zero());
+        if !is_baseline && may_be_chance { " ≈" } else { "" }
     }
 }
 
