@@ -77,7 +77,7 @@ pub use gather::linked_shader;
 pub use gaussian_light::{
     GaussianLight, GaussianLobe, filter_group, filter_shader, gaussian_lights,
 };
-pub use params::{Settings, SpecularLobe};
+pub use params::{Approximation, Settings};
 
 /// Pairs of light and pixel in one submission: about a second on a slow processor, far below any
 /// watchdog on a fast one.
@@ -90,7 +90,7 @@ pub struct Vsgl;
 impl Estimator for Vsgl {
     const ID: &'static str = "vsgl";
     const TITLE: &'static str = "virtual spherical Gaussian lights (Tokuyoshi 2015)";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
     const PARAMETERS: &'static [ParameterInfo] = params::PARAMETERS;
     type Tables = AlbedoTables;
 
@@ -115,7 +115,7 @@ impl Estimator for Vsgl {
         let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {
             let (lights, times) = lights_of_materials(on_gpu, scene, &materials, &settings, seed)?;
-            Ok((gather::batches(gather, &lights)?, times))
+            Ok((gather::batches(gather, &lights, &settings)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
     }
@@ -157,7 +157,7 @@ pub fn gather(
     let on_gpu = gpu.storage("surfaces", surfaces)?;
     let gather =
         gather::gather(gpu, (&on_gpu, surfaces.len() as u32), camera, &kinds, settings, None)?;
-    let batches = gather::batches(&gather, lights)?;
+    let batches = gather::batches(&gather, lights, settings)?;
     gather.add(&batches, 0..batches.count())?;
     gather.radiance()
 }

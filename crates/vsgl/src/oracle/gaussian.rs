@@ -94,6 +94,21 @@ pub fn clamped_cosine(cosine: f64, sharpness: f64) -> Cosine {
     Cosine { integral, mean }
 }
 
+/// Sharpness of the Gaussian of amplitude 1 that stood for the clamped cosine.
+pub const COSINE_SHARPNESS: f64 = 2.0;
+
+/// The thesis' source: the cosine is a Gaussian, whose integral with another is approximated (Iwasaki et
+/// al. 2012). The mean is that of the product's axis.
+pub fn gaussian_cosine(cosine: f64, sharpness: f64) -> Cosine {
+    let sum = COSINE_SHARPNESS + sharpness;
+    let product = COSINE_SHARPNESS * sharpness;
+    let integral = TAU / sum * (product / sum * (cosine - 1.0)).exp();
+    // |2n + λp|² = (2 + λ)² − 4λ(1 − c).
+    let length = (sum * sum - 2.0 * product * (1.0 - cosine)).max(0.0).sqrt();
+    let mean = (COSINE_SHARPNESS + sharpness * cosine) / length.max(1e-12);
+    Cosine { integral, mean: mean.clamp(0.0, 1.0) }
+}
+
 /// ∫₀¹ x e^{λ(x−1)} dx.
 fn above(l: f64) -> f64 {
     if l < 1e-3 { 0.5 - l / 6.0 + l * l / 24.0 } else { (1.0 - decay(l)) / l }

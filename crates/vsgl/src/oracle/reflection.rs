@@ -52,10 +52,32 @@ pub fn anisotropic(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Refl
     Reflection { integral: coefficient * value, dominant }
 }
 
-/// Tokuyoshi et al. 2024: the distribution of normals widened by the light, seen along the half
-/// vector.
+/// The distribution of normals widened by the light ([`by_filtered_normals`]). Its tails are those of
+/// GGX, too long where the light is the broader of the two: they are its exponential ones then. So the
+/// narrower the mirrored lobe, the more the product of two Gaussians counts, by Λ/(Λ + λ).
 pub fn filtered(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Reflection {
     let alpha2 = alpha * alpha;
+    let micro = dominant_normal(alpha2, view);
+    let mirrored = 2.0 * view.dot(micro) * micro - view;
+    let narrow = (1.0 - alpha2) / (2.0 * alpha2);
+    let along = mirrored * narrow + axis * sharpness;
+    let (length, dominant) = (along.length(), along.try_normalize().unwrap_or(mirrored));
+    // The product of the light and a normalised Gaussian about the mirrored view.
+    let sum = (narrow + sharpness).max(1e-12);
+    let lost = narrow * sharpness * (mirrored - axis).length_squared() / (length + sum);
+    let product = (-lost).exp() * integral(length) / integral(narrow);
+    let widened = by_filtered_normals(alpha2, view, axis, sharpness);
+    let blended = widened + (product - widened) * (narrow / sum);
+    let share = visible_share(dominant.z, length);
+    // G₂/G₁ there: the authors' code leaves it out and reflects up to 1.6 times too much (α = 1).
+    let (cosine, view_n) = (dominant.z.max(0.0), view.z.max(GRAZING));
+    let own = smith(alpha2, view_n);
+    let masking = cosine * (view_n + own) / (cosine * own + view_n * smith(alpha2, cosine));
+    Reflection { integral: share * masking * blended, dominant }
+}
+
+/// Tokuyoshi et al. 2024: ∫ G D/(4 v·h) dw with the widened distribution, seen along the half vector.
+fn by_filtered_normals(alpha2: f64, view: DVec3, axis: DVec3, sharpness: f64) -> f64 {
     let view_n = view.z.max(GRAZING);
     let l = 2.0 * sharpness.max(1e-12);
     let rest = 1.0 - alpha2;
@@ -66,15 +88,6 @@ pub fn filtered(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Reflect
     let sum = h.x * h.x / mx + h.y * h.y / my + h.z * h.z;
     let d = if length2 > 1e-12 { sum / length2 } else { 1.0 };
     let distribution = 1.0 / (PI * (mx * my).sqrt() * d * d);
-    let lobe = distribution / (4.0 * (view.x * view.x * mx + view.z * view.z).sqrt());
-    let micro = dominant_normal(alpha2, view);
-    let mirrored = 2.0 * view.dot(micro) * micro - view;
-    let along = mirrored * (rest / (2.0 * alpha2)) + axis * sharpness;
-    let (length, dominant) = (along.length(), along.try_normalize().unwrap_or(mirrored));
-    let share = visible_share(dominant.z, length);
-    // G₂/G₁ there: the authors' code leaves it out and reflects up to 1.6 times too much (α = 1).
-    let cosine = dominant.z.max(0.0);
-    let own = smith(alpha2, view_n);
-    let masking = cosine * (view_n + own) / (cosine * own + view_n * smith(alpha2, cosine));
-    Reflection { integral: share * lobe * masking * integral(sharpness), dominant }
+    let projected = (view.x * view.x * mx + view.z * view.z).sqrt();
+    integral(sharpness) * distribution / (4.0 * projected)
 }
