@@ -1,4 +1,10 @@
 //! Spherical Gaussians and their integrals.
+//!
+//! Errors against quadrature (`tests/truth.rs`). The integral with the clamped cosine, in units of its
+//! largest value: 5e-6 for λ = 0.1, 6e-4 for 2.3, 1.5e-3 for 5, 3e-5 for 100; by the thesis' product of
+//! two Gaussians 0.06 for 0.1, 0.13 for 2, 0.15 for 20. The mean cosine is up to 0.16 too large (λ 2.3),
+//! and (1 − c)⁵ of it, which couples the lobes, is off the mean of (1 − c)⁵ by up to 0.16 (λ 5). The share
+//! above the horizon is off by 0.003.
 
 use std::f64::consts::{PI, TAU};
 

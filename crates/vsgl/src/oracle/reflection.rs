@@ -1,6 +1,23 @@
 //! A GGX lobe under a spherical Gaussian: two approximations of ∫ G D V ⟨n·w⟩ dw, without Fresnel.
 //!
 //! All directions are local: x the tangent on the view's side, z the normal.
+//!
+//! Errors against quadrature (`tests/lobes.rs`), root mean square over light directions in units of the
+//! largest value, mean over views of 10° to 75° and λ of 2.3 to 200:
+//!
+//! | roughness | [`filtered`] | without its blend | [`anisotropic`] |
+//! |---|---|---|---|
+//! | 0.1 to 0.35 | 0.010 | 0.036 | 0.043 |
+//! | 0.4 to 1 | 0.082 | 0.094 | 0.195 |
+//!
+//! Filtered normals alone have GGX's long tails where the light's own are exponential: where the truth is
+//! below a hundredth of its largest value, they add up to 1.2 to 31 times that (roughness 0.1 to 0.35, λ of
+//! 20 and 200), and convex metal glows in the light of its own specular lobes. Blended they add up to 0.6
+//! to 2.3 times that, to 1.1 at most for λ = 20.
+//!
+//! Fresnel's exact term, taken at one direction (λ 2.3 and 20): gold paint, teflon and red phenolic reflect
+//! in all between 12 % too much and 14 % too little, most at 75°; white fabric, whose index of 1.05 makes it
+//! the steepest, up to 46 % too little.
 
 use std::f64::consts::{PI, TAU};
 
