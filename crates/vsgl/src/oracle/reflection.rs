@@ -69,7 +69,7 @@ pub fn anisotropic(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Refl
     Reflection { integral: coefficient * value, dominant }
 }
 
-/// The distribution of normals widened by the light ([`by_filtered_normals`]). Its tails are those of
+/// The distribution of normals widened by the light. Its tails are those of
 /// GGX, too long where the light is the broader of the two: they are its exponential ones then. So the
 /// narrower the mirrored lobe, the more the product of two Gaussians counts, by Λ/(Λ + λ).
 pub fn filtered(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Reflection {
