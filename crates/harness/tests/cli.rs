@@ -168,7 +168,7 @@ fn words_are_said_as_words() {
         ("hvl", "horizon=1", "say horizon=exact"),
         ("hvl", "radius=0", "say radius=neighbours"),
         ("vsl", "sampling=0", "say sampling=brdf"),
-        ("vsgl", "lobe=0", "say lobe=anisotropic"),
+        ("vsgl", "lobe=0", "say lobe=thesis"),
         ("hvl", "form=2", "must be one of the words full, zonal"),
         ("hvl", "form=zonl", "did you mean `zonal`?"),
         ("vpl", "radius=0.5", "is now called `attenuation_radius`"),

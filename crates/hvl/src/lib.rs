@@ -41,12 +41,40 @@
 //! which band 0 alone leaves nothing of the lobe to evaluate. See `examples/hvl_emission.rs` for what
 //! each costs and changes.
 //!
+//! # Energy
+//! What 400 lights send of the energy of 78 400 virtual point lights, and the root mean square error of
+//! the display's values against those (96 × 72 pixels, 3 seeds, visibility ignored; 5 bands and no window
+//! where nothing is said):
+//!
+//! | | `trio` | `cornell-glossy` | `cornell` |
+//! |---|---|---|---|
+//! | vpl, points | 0.94, 0.069 | 1.00, 0.037 | 1.00, 0.035 |
+//! | vsl, spheres by samples | 0.90, 0.047 | 0.93, 0.028 | 0.94, 0.027 |
+//! | 3 bands | 0.91, 0.069 | 1.10, 0.060 | 0.95, 0.031 |
+//! | 5 bands | 0.92, 0.067 | 0.96, 0.045 | 0.96, 0.031 |
+//! | 9 bands | 0.92, 0.066 | 0.96, 0.034 | 0.96, 0.030 |
+//! | 20 bands | 0.92, 0.066 | 0.96, 0.033 | 0.96, 0.030 |
+//! | `window` = `lanczos` | 0.89, 0.068 | 0.99, 0.045 | 0.90, 0.032 |
+//! | `window` = `hamming` | 0.89, 0.069 | 0.98, 0.048 | 0.89, 0.033 |
+//! | `window` = `hann` | 0.88, 0.069 | 0.99, 0.051 | 0.88, 0.033 |
+//! | `window` = `weakest` | 0.75, 0.082 | 0.76, 0.065 | 0.67, 0.055 |
+//!
+//! Spheres lose 4 to 6 % where horizons cut them, and the more the larger they are. Against traced
+//! references of the thesis' and our scenes, 400 lights send 0.72 to 0.94 of the energy, those of vsl 0.85
+//! to 0.89: spheres cause much of it, short expansions the rest. Every window errs more than none but
+//! Lanczos' on `cornell-glossy`, which ties; at 9 bands the first three cost a third of that energy, and
+//! `weakest` as much as at 5.
+//!
 //! # Cost
 //! A pixel's expansion is fetched once a batch, not once a light. Lights take 48 bytes, glossy ones 64.
 //! What a pair of light and pixel takes: `tests/examples/virtual_light_throughput`.
 //!
 //! # Deviations from the papers
 //! - 5.8: the lower clamp is π/2 − a; as printed it never acts.
+//! - No window damps the reflectance unless one is asked for. The paper has one (HVL 4.2) and does not say
+//!   which; what each costs is above.
+//! - Tables of shaded points' lobes, a degree apart as in the paper, are interpolated; the paper reads one
+//!   entry.
 //! - The expansion of a light's emission is scaled to the flux of the lobe itself ([`emission`]): as
 //!   projected, one band emits half to 23 times of it.
 //! - Φ_j is the flux of the light's cell, not power/count; the emitting cosine is that of the geometric

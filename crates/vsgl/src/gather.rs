@@ -7,7 +7,7 @@ use manylights_virtual_lights::{
 };
 
 use crate::light_record::{GlossyLight, LambertLight};
-use crate::{GaussianLight, Settings, SpecularLobe};
+use crate::{Approximation, GaussianLight, Settings};
 
 /// Lights a batch: below 32 KiB each.
 pub(crate) const LAMBERT_CAPACITY: usize = 512;
@@ -26,7 +26,8 @@ pub fn linked_shader(
     let features = [
         ("glossy_receivers", kinds.specular),
         ("glossy_lights", glossy_lights),
-        ("filtered", settings.lobe == SpecularLobe::Filtered),
+        ("filtered", settings.lobe == Approximation::Filtered),
+        ("cut_behind", settings.cut_behind),
     ];
     EstimatorShader {
         estimator: include_str!("shaders/estimator.wesl"),
@@ -50,14 +51,16 @@ pub fn linked_shader(
 pub(crate) fn batches(
     gather: &LightGather,
     lights: &[GaussianLight],
+    settings: &Settings,
 ) -> Result<LightBatches, Error> {
     let (glossy, lambert): (Vec<_>, Vec<_>) = lights.iter().partition(|light| light.has_specular());
     let centers = [&lambert, &glossy].map(|lights| {
         let center = |light: &&GaussianLight| Center::new(light.center, light.geometric_normal);
         lights.iter().map(center).collect::<Vec<_>>()
     });
-    let lambert: Vec<_> = lambert.into_iter().map(LambertLight::new).collect();
-    let glossy: Vec<_> = glossy.into_iter().map(GlossyLight::new).collect();
+    let lambert = lambert.into_iter().map(|light| LambertLight::new(light, settings));
+    let glossy = glossy.into_iter().map(|light| GlossyLight::new(light, settings));
+    let (lambert, glossy): (Vec<_>, Vec<_>) = (lambert.collect(), glossy.collect());
     gather.batches(
         &Lights { records: &lambert, centers: &centers[0] },
         &Lights { records: &glossy, centers: &centers[1] },

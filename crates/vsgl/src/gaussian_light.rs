@@ -8,8 +8,8 @@ use manylights_gpu::{
 use manylights_scene::{Brdf, Scene};
 use manylights_virtual_lights::{LIT_TEXEL, LitTexel, LitTexels, lit_texels, scene_maps};
 
-use crate::Settings;
 use crate::albedo::{ALBEDOS, albedos, exact_lobes};
+use crate::{Approximation, Settings};
 
 /// One spherical Gaussian that emits from a cloud of places, as `shaders/filter.wesl` writes it.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -100,9 +100,10 @@ impl Materials {
 ///
 /// # Errors
 /// Where the shader does not link.
-pub fn filter_shader(kinds: &Reflectances) -> Result<String, Error> {
+pub fn filter_shader(kinds: &Reflectances, lobe: Approximation) -> Result<String, Error> {
     let modules = [LIT_TEXEL, ("emission", include_str!("shaders/emission.wesl"))];
-    let features = [&[("specular", kinds.specular)][..], &kinds.features()].concat();
+    let of_method = [("specular", kinds.specular), ("thesis", lobe == Approximation::Thesis)];
+    let features = [&of_method[..], &kinds.features()].concat();
     link("filter", include_str!("shaders/filter.wesl"), &modules, &features)
 }
 
@@ -135,7 +136,7 @@ pub(crate) fn lights_of_materials(
         let (texels, passes) = lit_texels(frame, &map.refined(settings.texels))?;
         times.extend(passes);
         let groups = map.projection.resolution;
-        let (filtered, time) = filter(frame.gpu(), &texels, groups, settings.texels, materials)?;
+        let (filtered, time) = filter(frame.gpu(), &texels, groups, settings, materials)?;
         times.extend(time);
         lights.extend(filtered.into_iter().flatten());
     }
@@ -152,6 +153,7 @@ pub(crate) fn lights_of_materials(
 pub fn filter_group(
     gpu: &Gpu,
     texels: &[(SurfaceRecord, LitTexel)],
+    lobe: Approximation,
 ) -> Result<Option<GaussianLight>, Error> {
     let side = texels.len().isqrt();
     assert_eq!(side * side, texels.len(), "a group is a square of texels");
@@ -162,29 +164,31 @@ pub fn filter_group(
         surfaces: gpu.storage("surfaces", &surfaces)?,
         texels: gpu.storage("lit texels", &lit)?,
     };
-    let (lights, _) = filter(gpu, &texels, [1, 1], side as u32, &materials)?;
+    let settings = Settings { texels: side as u32, lobe, ..Settings::default() };
+    let (lights, _) = filter(gpu, &texels, [1, 1], &settings, &materials)?;
     Ok(lights.into_iter().flatten().next())
 }
 
-/// One light for each group of `side`² texels.
+/// One light for each group of texels.
 fn filter(
     gpu: &Gpu,
     map: &LitTexels,
     groups: [u32; 2],
-    side: u32,
+    settings: &Settings,
     materials: &Materials,
 ) -> Result<(Vec<Option<GaussianLight>>, Vec<PassTime>), Error> {
     let kinds = if materials.kinds.specular { 2 } else { 1 };
     let count = groups[0] as usize * groups[1] as usize;
     let lobes = gpu.zeroed("lobes", (count * kinds * size_of::<GaussianLobe>()) as u64)?;
     let centers = gpu.zeroed("centers", (count * size_of::<FilteredCenter>()) as u64)?;
-    let sides = gpu.uniform("groups", &[side, 0, 0, 0])?;
+    let sides = gpu.uniform("groups", &[settings.texels, 0, 0, 0])?;
     let mut bindings = vec![Binding::Uniform, Binding::Storage, Binding::Storage];
     bindings.extend([Binding::StorageMut; 2]);
     let mut buffers: Vec<&Buffer> = vec![&sides, &map.surfaces, &map.texels, &lobes, &centers];
     bindings.resize(bindings.len() + materials.tables.len(), Binding::Storage);
     buffers.extend(&materials.tables);
-    let kernel = gpu.kernel("filter", &filter_shader(&materials.kinds)?, &bindings)?;
+    let kernel =
+        gpu.kernel("filter", &filter_shader(&materials.kinds, settings.lobe)?, &bindings)?;
     let resources: Vec<_> = buffers.into_iter().map(Resource::Buffer).collect();
     let pass = gpu.pass("filter", &kernel, &resources)?;
     let times = gpu.run(&[pass.over([groups[0], groups[1], 1])])?;

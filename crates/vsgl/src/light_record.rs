@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::{GaussianLight, GaussianLobe};
+use crate::{GaussianLight, GaussianLobe, Settings};
 
 /// A light without specular power: 48 bytes.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -16,7 +16,7 @@ pub(crate) struct LambertLight {
     /// Against the emission.
     axis: Vec3,
     sharpness: f32,
-    /// P/(2π ∫G), W·sr⁻¹.
+    /// P/(2π ∫G), W·sr⁻¹, with the integral over what is sent.
     strength: Vec3,
     padding: f32,
 }
@@ -41,15 +41,20 @@ impl LambertLight {
         }
     }
 
-    pub(crate) fn new(light: &GaussianLight) -> Self {
-        Self::from_lobe(&light.diffuse)
+    /// The Lambertian lobe: its axis is the normal, so 1/(1 + e^{−λ}) of it is in front.
+    pub(crate) fn new(light: &GaussianLight, settings: &Settings) -> Self {
+        let mut record = Self::from_lobe(&light.diffuse);
+        if settings.cut_behind {
+            record.strength *= 1.0 + (-record.sharpness).exp();
+        }
+        record
     }
 }
 
 impl GlossyLight {
-    pub(crate) fn new(light: &GaussianLight) -> Self {
+    pub(crate) fn new(light: &GaussianLight, settings: &Settings) -> Self {
         let specular = LambertLight::from_lobe(&light.specular);
-        let mut diffuse = LambertLight::from_lobe(&light.diffuse);
+        let mut diffuse = LambertLight::new(light, settings);
         if light.diffuse.power == Vec3::ZERO {
             diffuse = LambertLight { strength: Vec3::ZERO, ..specular };
         }

@@ -14,23 +14,44 @@ pub(crate) const PARAMETERS: &[ParameterInfo] = &[
         name: "lobe",
         formerly: None,
         introduced: None,
-        help: "what stands for the specular lobe of the shaded point",
+        help: "what stands for specular lobes and for cosines",
         kind: ParameterKind::Choice {
             default: "filtered",
             words: &[
-                ChoiceWord { word: "anisotropic", help: "an anisotropic Gaussian (the thesis)" },
-                ChoiceWord { word: "filtered", help: "a filtered distribution of normals" },
+                ChoiceWord {
+                    word: "thesis",
+                    help: "products of Gaussians about mirrored directions (its source, 2020)",
+                },
+                ChoiceWord {
+                    word: "filtered",
+                    help: "filtered normals and a closed form (Tokuyoshi et al. 2024)",
+                },
+            ],
+        },
+    },
+    ParameterInfo {
+        name: "behind",
+        formerly: None,
+        introduced: Some("sent"),
+        help: "what becomes of a Lambertian lobe behind the surface it leaves",
+        kind: ParameterKind::Choice {
+            default: "sent",
+            words: &[
+                ChoiceWord { word: "sent", help: "it is sent there (Tokuyoshi 2015)" },
+                ChoiceWord { word: "cut", help: "it is cut off, and the rest scaled to its power" },
             ],
         },
     },
 ];
 
-/// How a GGX lobe is integrated against a light.
+/// Whose closed forms stand for cosines and GGX lobes, of texels and of the shaded point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpecularLobe {
-    /// Replaced by an anisotropic spherical Gaussian (Xu et al. 2013), as the thesis' source did.
-    Anisotropic,
-    /// Its distribution of normals widened by the light (Tokuyoshi et al. 2024).
+pub enum Approximation {
+    /// As in the source that the thesis took (2020): cosines are Gaussians, GGX lobes lie about mirrored
+    /// directions, that of the shaded point as an anisotropic Gaussian (Xu et al. 2013).
+    Thesis,
+    /// What came later: a fitted cosine and a closed form of its integral, dominant visible normals,
+    /// and a distribution of normals widened by the light (Tokuyoshi et al. 2024).
     Filtered,
 }
 
@@ -41,8 +62,10 @@ pub struct Settings {
     pub lights: u64,
     /// Texels a side of a cell.
     pub texels: u32,
-    /// The shaded point's specular lobe.
-    pub lobe: SpecularLobe,
+    /// Closed forms of cosines and specular lobes.
+    pub lobe: Approximation,
+    /// Whether a Lambertian lobe ends at the surface that it leaves.
+    pub cut_behind: bool,
 }
 
 /// What `list methods` shows.
@@ -59,8 +82,9 @@ impl Settings {
             texels: parameters.count("texels") as u32,
             lobe: parameters.choice(
                 "lobe",
-                &[("anisotropic", SpecularLobe::Anisotropic), ("filtered", SpecularLobe::Filtered)],
+                &[("thesis", Approximation::Thesis), ("filtered", Approximation::Filtered)],
             ),
+            cut_behind: parameters.choice("behind", &[("sent", false), ("cut", true)]),
         }
     }
 }

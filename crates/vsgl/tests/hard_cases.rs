@@ -4,13 +4,15 @@
 use std::f32::consts::FRAC_PI_2;
 
 use crate::common::{
-    FITTED, GPU, LOBES, SETTINGS, empty, glossy, lobe, preset, render, surface, texel,
+    FITTED, GPU, SETTINGS, VARIANTS, empty, glossy, lobe, preset, render, surface, texel,
 };
 use glam::Vec3;
 use manylights_gpu::SurfaceRecord;
 use manylights_scene::Brdf;
 use manylights_virtual_lights::LitTexel;
-use manylights_vsgl::{GaussianLight, GaussianLobe, Settings, filter_group, gather, oracle};
+use manylights_vsgl::{
+    Approximation, GaussianLight, GaussianLobe, Settings, filter_group, gather, oracle,
+};
 
 const CAMERA: Vec3 = Vec3::new(0.6, 1.0, -0.2);
 
@@ -22,22 +24,23 @@ fn both(lobe: GaussianLobe) -> GaussianLight {
 
 #[test]
 fn empty_groups_are_no_lights() {
-    assert_eq!(filter_group(&GPU, &[empty(); 9]).expect("a filter"), None);
+    assert_eq!(filter_group(&GPU, &[empty(); 9], Approximation::Filtered).expect("a filter"), None);
     // Lit, but black: nothing is emitted.
     let black = texel(Vec3::ONE, Vec3::Y, Vec3::Y, Brdf::lambert(Vec3::ZERO));
-    assert_eq!(filter_group(&GPU, &[black; 4]).expect("a filter"), None);
+    assert_eq!(filter_group(&GPU, &[black; 4], Approximation::Filtered).expect("a filter"), None);
 }
 
 /// One lit texel among empty ones is the light of that texel, wherever it stands.
 #[test]
 fn one_lit_texel_among_empty_ones() {
     let one = texel(Vec3::new(3.0, -1.0, 2.0), Vec3::Y, Vec3::new(0.6, 0.8, 0.0), glossy(0.2));
-    let alone = filter_group(&GPU, &[one]).expect("a filter");
+    let alone = filter_group(&GPU, &[one], Approximation::Filtered).expect("a filter");
     assert!(alone.is_some());
     for place in [0, 8, 63, 64, 195] {
         let mut texels = [empty(); 196];
         texels[place] = one;
-        assert_eq!(filter_group(&GPU, &texels).expect("a filter"), alone, "{place}");
+        let found = filter_group(&GPU, &texels, Approximation::Filtered).expect("a filter");
+        assert_eq!(found, alone, "{place}");
     }
 }
 
@@ -63,10 +66,10 @@ fn filtering_keeps_its_digits() {
     for roughness in [0.03, 0.1, 0.3, 1.0] {
         for (size, origin) in [(1.0, 0.0), (1e-3, 0.0), (1e4, 0.0), (1.0, 1e4), (1e-2, 1e4)] {
             let texels = curved(origin * Vec3::new(0.3, -0.7, 0.6), size, roughness);
-            let found = filter_group(&GPU, &texels).expect("a filter").expect("a light");
-            for (found, truth) in
-                [found.diffuse, found.specular].into_iter().zip(oracle::filter(&texels))
-            {
+            let by = Approximation::Filtered;
+            let found = filter_group(&GPU, &texels, by).expect("a filter").expect("a light");
+            let truths = oracle::filter(&texels, by);
+            for (found, truth) in [found.diffuse, found.specular].into_iter().zip(truths) {
                 let place = found.position.as_dvec3() - truth.position;
                 // Half of the last digit of the mean place, which f32 must hold.
                 let digit = 1e-7 * truth.position.length() + 1e-6 * f64::from(size);
@@ -111,13 +114,12 @@ fn nothing_is_ever_non_finite() {
             }
         }
     }
-    for of_receiver in LOBES {
-        let settings = Settings { lobe: of_receiver, ..SETTINGS };
+    for settings in VARIANTS {
         let pixels = gather(&GPU, &surfaces, CAMERA, &lights, &settings).expect("a gather");
         for (surface, pixel) in surfaces.iter().zip(pixels) {
             // A value that is not finite would stay so in the sum over the lights.
             let finite = pixel.iter().all(|value| value.is_finite() && *value >= 0.0);
-            assert!(finite, "{of_receiver:?} {surface:?}: {pixel:?}");
+            assert!(finite, "{settings:?} {surface:?}: {pixel:?}");
         }
     }
 }
@@ -138,8 +140,7 @@ fn continuous(brdf: Brdf, settings: &Settings, places: impl Iterator<Item = Vec3
 
 #[test]
 fn nothing_jumps_inside_the_cloud_or_at_the_horizon() {
-    for of_receiver in LOBES {
-        let settings = Settings { lobe: of_receiver, ..SETTINGS };
+    for settings in VARIANTS {
         for brdf in [Brdf::lambert(Vec3::ONE), glossy(0.5)] {
             let toward = Vec3::new(0.3, -0.9, -0.1).normalize();
             let through = (0..240).map(|step| toward * (0.005 * (step - 120) as f32));
@@ -153,8 +154,7 @@ fn nothing_jumps_inside_the_cloud_or_at_the_horizon() {
 /// Lengths times s and flux times s²: the same picture.
 #[test]
 fn the_unit_of_length_does_not_matter() {
-    for of_receiver in LOBES {
-        let settings = Settings { lobe: of_receiver, ..SETTINGS };
+    for settings in VARIANTS {
         let value = |size: f32| {
             let mut light = both(lobe(
                 size * Vec3::new(-0.3, 0.4, 0.1),
@@ -171,7 +171,7 @@ fn the_unit_of_length_does_not_matter() {
         assert!(metre > 0.0);
         for size in [1e-3, 1e4] {
             let error = (value(size) / metre - 1.0).abs();
-            assert!(error < 1e-5, "{of_receiver:?} {size}: {error}");
+            assert!(error < 1e-5, "{settings:?} {size}: {error}");
         }
     }
 }

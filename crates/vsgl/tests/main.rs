@@ -1,5 +1,6 @@
 //! All tests of the crate in one executable: each of its own links everything anew.
 
+mod biases;
 mod common;
 mod hard_cases;
 mod lobes;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{FITTED, GPU, SETTINGS, glossy, preset, surface, texel};
+use crate::common::{CUT, FITTED, GPU, SETTINGS, glossy, preset, surface, texel};
 use glam::{DVec3, Vec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_harmonics::quadrature::sphere_nodes;
@@ -10,7 +10,7 @@ use manylights_scene::{Brdf, DBrdf};
 use manylights_virtual_lights::{LitTexel, VirtualLight};
 use manylights_vsgl::oracle::gaussian::{Gaussian, integral};
 use manylights_vsgl::oracle::{DIFFUSE_SHARPNESS, filter};
-use manylights_vsgl::{GaussianLight, filter_group, gather};
+use manylights_vsgl::{Approximation, GaussianLight, filter_group, gather};
 
 const POINTS: manylights_vpl::Settings =
     manylights_vpl::Settings { lights: 1, clamp: None, attenuation_radius: None };
@@ -27,7 +27,7 @@ fn virtual_light((surface, lit): &(SurfaceRecord, LitTexel)) -> VirtualLight {
 }
 
 fn light(texels: &[(SurfaceRecord, LitTexel)]) -> GaussianLight {
-    filter_group(&GPU, texels).expect("a filter").expect("a light")
+    filter_group(&GPU, texels, Approximation::Filtered).expect("a filter").expect("a light")
 }
 
 /// Radiance of one surface, one channel.
@@ -42,7 +42,8 @@ fn power_is_reflected_power() {
         for cosine in [0.2_f32, 0.6, 0.95] {
             let incoming = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
             for brdf in [glossy(roughness), Brdf { diffuse: Vec3::ZERO, ..glossy(roughness) }] {
-                let lobes = filter(&[texel(Vec3::ZERO, Vec3::Z, incoming, brdf)]);
+                let texels = [texel(Vec3::ZERO, Vec3::Z, incoming, brdf)];
+                let lobes = filter(&texels, Approximation::Filtered);
                 let power: f64 = lobes.iter().map(|lobe| lobe.power.y).sum();
                 let truth = reflected(brdf, incoming);
                 println!("roughness {roughness}, cosine {cosine}: {:+.4}", power / truth - 1.0);
@@ -64,7 +65,8 @@ fn power_of_fitted_materials() {
         for cosine in [0.1_f32, 0.2, 0.6, 0.95] {
             let incoming = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
             let brdf = preset(name);
-            let lobes = filter(&[texel(Vec3::ZERO, Vec3::Z, incoming, brdf)]);
+            let texels = [texel(Vec3::ZERO, Vec3::Z, incoming, brdf)];
+            let lobes = filter(&texels, Approximation::Filtered);
             let power: f64 = lobes.iter().map(|lobe| lobe.power.y).sum();
             let truth = reflected(brdf, incoming);
             println!("{name}, cosine {cosine}: {:+.4}", power / truth - 1.0);
@@ -170,6 +172,34 @@ fn a_patch_against_its_point_lights() {
     for (ratio, expected) in ratios {
         // What was measured when this was written: a change of the method shows.
         assert!((ratio - expected).abs() < 0.01, "{ratio}, not {expected}");
+    }
+}
+
+/// A Lambertian lobe that is cut at its surface sends nothing behind it, and all of its power in front.
+#[test]
+fn all_power_is_in_front_of_a_cut_surface() {
+    let mut light = light(&patch(0.3, 14, Brdf::lambert(Vec3::splat(0.7))));
+    light.diffuse.power = Vec3::ONE;
+    let radius = 50.0;
+    let mut nodes = Vec::new();
+    for range in [[-1.0, 0.0], [0.0, 1.0]] {
+        nodes.extend(sphere_nodes(16, range));
+    }
+    let facing = |(w, _): &([f64; 3], f64)| {
+        let away = DVec3::from_array(*w).as_vec3();
+        surface(light.diffuse.position + radius * away, -away, Brdf::lambert(Vec3::ONE))
+    };
+    let receivers: Vec<_> = nodes.iter().map(facing).collect();
+    for (settings, behind) in [(SETTINGS, 0.0918), (CUT, 0.0)] {
+        let arriving = gather(&GPU, &receivers, Vec3::ZERO, &[light], &settings).expect("a gather");
+        let (mut front, mut back) = (0.0, 0.0);
+        for ((w, weight), radiance) in nodes.iter().zip(arriving) {
+            let power = weight * f64::from(radius * radius) * PI * f64::from(radiance[0]);
+            *(if w[2] > 0.0 { &mut front } else { &mut back }) += power;
+        }
+        println!("{settings:?}: {front:.4} W in front, {back:.4} W behind");
+        assert!((front - (1.0 - behind)).abs() < 1e-3, "{settings:?}: {front}");
+        assert!((back - behind).abs() < 1e-3, "{settings:?}: {back}");
     }
 }
 

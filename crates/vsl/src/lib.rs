@@ -34,7 +34,10 @@
 //! light and pixel takes: `tests/examples/virtual_light_throughput`.
 //!
 //! Bias: spheres darken concave surfaces, since a part of a wide cone is below one of the horizons; on
-//! the integrating sphere by 4/(3π) r/R (`tests/tests/integrating_sphere.rs`).
+//! the integrating sphere by 4/(3π) r/R (`tests/tests/integrating_sphere.rs`). Of the energy of 78 400
+//! virtual point lights, 400 spheres send 0.90 in `trio`, 0.93 in `cornell-glossy` and 0.94 in `cornell`,
+//! of that of traced references 0.85 to 0.89; `manylights-hvl` has the table. No window is in this method:
+//! it expands nothing.
 #![cfg_attr(not(test), warn(clippy::print_stderr, clippy::print_stdout))]
 
 mod gather;

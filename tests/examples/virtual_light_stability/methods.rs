@@ -5,7 +5,7 @@ use manylights_gpu::{Error, Gpu, SurfaceRecord};
 use manylights_reflectance::Form;
 use manylights_scene::Brdf;
 use manylights_virtual_lights::{LitTexel, VirtualLight, VirtualSphere};
-use manylights_vsgl::{GaussianLight, SpecularLobe};
+use manylights_vsgl::{Approximation, GaussianLight};
 use {
     manylights_hvl as hvl, manylights_vpl as vpl, manylights_vsgl as vsgl, manylights_vsl as vsl,
 };
@@ -67,11 +67,11 @@ pub(crate) const SUBJECTS: [Subject; 4] = [
         title: "Virtual spherical Gaussian lights",
         notes: "Lights are groups of 6² texels. Filter: power, variance and sharpness of the lobes, \
                 relative. Gather: radiance under the adapter's lobes, relative to the larger of the \
-                two, with filtered normals and with the anisotropic Gaussian. Of lights below the \
-                horizon next to nothing is left, less than the error of erfc in f32 (1.5e-7 of what a \
-                facing light gives). Views within 1e-6 of the horizon have a cosine of one digit in \
-                f32.",
-        columns: &["filter", "gather, filtered", "gather, anisotropic"],
+                two, with filtered normals and by the thesis' products of Gaussians. Of lights below \
+                the horizon next to nothing is left with the first, less than the error of erfc in \
+                f32 (1.5e-7 of what a facing light gives). Views within 1e-6 of the horizon have a \
+                cosine of one digit in f32.",
+        columns: &["filter", "gather, filtered", "gather, thesis"],
         measure: measure_vsgl,
     },
 ];
@@ -159,16 +159,18 @@ fn white(surface: &SurfaceRecord, sphere: &VirtualSphere, eye: DVec3) -> f64 {
 
 fn measure_vsgl(gpu: &Gpu, pair: &Pair, camera: Vec3) -> Outcome {
     let (texels, surface) = (group(pair), &pair.surface);
-    let light = vsgl::filter_group(gpu, &texels).expect("the adapter filters 36 texels");
+    let light = vsgl::filter_group(gpu, &texels, Approximation::Filtered)
+        .expect("the adapter filters 36 texels");
     let light = light.expect("the texels have flux");
-    let columns = [SpecularLobe::Filtered, SpecularLobe::Anisotropic].map(|lobe| {
+    let columns = [Approximation::Filtered, Approximation::Thesis].map(|lobe| {
         let settings = vsgl::Settings { lobe, ..vsgl::Settings::default() };
         let pixels = vsgl::gather(gpu, &[*surface], camera, &[light], &settings);
         [pixel(pixels), vsgl::oracle::radiance(surface, camera.as_dvec3(), &[light], &settings)]
     });
     let mut outcome = outcome(columns, None);
     let GaussianLight { diffuse, specular, .. } = light;
-    let lobes = [diffuse, specular].into_iter().zip(vsgl::oracle::filter(&texels));
+    let truths = vsgl::oracle::filter(&texels, Approximation::Filtered);
+    let lobes = [diffuse, specular].into_iter().zip(truths);
     let lobes = lobes.filter(|(_, truth)| truth.power != DVec3::ZERO);
     let filter: Vec<_> = lobes.flat_map(|(found, truth)| filter_errors(&found, &truth)).collect();
     outcome.non_finite += filter.iter().filter(|error| !error.is_finite()).count();

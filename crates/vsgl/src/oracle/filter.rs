@@ -5,8 +5,9 @@ use manylights_gpu::SurfaceRecord;
 use manylights_scene::{DBrdf, Lobe};
 use manylights_virtual_lights::LitTexel;
 
-use super::gaussian::{blur, sharpness};
+use super::gaussian::{COSINE_SHARPNESS, blur, sharpness};
 use super::reflection::dominant_normal;
+use crate::Approximation;
 use crate::albedo::{exact_interpolated, interpolated};
 
 /// One spherical Gaussian that emits from a cloud of places.
@@ -34,11 +35,19 @@ struct Emission {
 /// Sharpness of the lobe that is fitted to cos/π.
 pub const DIFFUSE_SHARPNESS: f64 = 2.292504;
 
+/// The lobe that stands for cos/π.
+fn cosine_sharpness(by: Approximation) -> f64 {
+    match by {
+        Approximation::Thesis => COSINE_SHARPNESS,
+        Approximation::Filtered => DIFFUSE_SHARPNESS,
+    }
+}
+
 /// The diffuse and the specular lobe of a group; power 0 where there is none.
-pub fn filter(texels: &[(SurfaceRecord, LitTexel)]) -> [DGaussianLobe; 2] {
+pub fn filter(texels: &[(SurfaceRecord, LitTexel)], by: Approximation) -> [DGaussianLobe; 2] {
     let lit = texels.iter().filter(|(_, texel)| texel.flux.max_element() > 0.0);
     [diffuse, specular].map(|emission| {
-        mean(lit.clone().map(|(surface, texel)| (surface, texel, emission(surface, texel))))
+        mean(lit.clone().map(|(surface, texel)| (surface, texel, emission(surface, texel, by))))
     })
 }
 
@@ -73,7 +82,7 @@ fn mean<'a>(
     }
 }
 
-fn diffuse(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
+fn diffuse(surface: &SurfaceRecord, texel: &LitTexel, by: Approximation) -> Emission {
     let brdf = DBrdf::from(surface.brdf());
     let entering = brdf.transmission(cosine(surface, texel));
     let leaving = match brdf.lobe {
@@ -86,7 +95,7 @@ fn diffuse(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     Emission {
         power: texel.flux.as_dvec3() * brdf.diffuse * (entering * leaving),
         axis: texel.geometric_normal.as_dvec3().normalize(),
-        blur: blur(DIFFUSE_SHARPNESS),
+        blur: blur(cosine_sharpness(by)),
     }
 }
 
@@ -94,7 +103,7 @@ fn cosine(surface: &SurfaceRecord, texel: &LitTexel) -> f64 {
     surface.normal.as_dvec3().normalize().dot(texel.incoming.as_dvec3().normalize())
 }
 
-fn specular(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
+fn specular(surface: &SurfaceRecord, texel: &LitTexel, by: Approximation) -> Emission {
     let brdf = DBrdf::from(surface.brdf());
     let normal = surface.normal.as_dvec3().normalize();
     let incoming = texel.incoming.as_dvec3().normalize();
@@ -102,7 +111,10 @@ fn specular(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     let tangential = incoming - view_n * normal;
     let alpha2 = brdf.alpha * brdf.alpha;
     let view = DVec3::new(tangential.length(), 0.0, view_n);
-    let local = dominant_normal(alpha2, view);
+    let local = match by {
+        Approximation::Thesis => DVec3::Z,
+        Approximation::Filtered => dominant_normal(alpha2, view),
+    };
     let tangent = tangential.try_normalize().unwrap_or(DVec3::ZERO);
     let micro = (local.x * tangent + local.z * normal).normalize();
     let view_m = incoming.dot(micro);
@@ -123,7 +135,7 @@ fn specular(surface: &SurfaceRecord, texel: &LitTexel) -> Emission {
     Emission {
         power: texel.flux.as_dvec3() * reflected * geometric.clamp(0.0, 2.0),
         axis,
-        blur: blur(lobe.max(DIFFUSE_SHARPNESS)),
+        blur: blur(lobe.max(cosine_sharpness(by))),
     }
 }
 

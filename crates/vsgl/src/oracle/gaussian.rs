@@ -1,4 +1,10 @@
 //! Spherical Gaussians and their integrals.
+//!
+//! Errors against quadrature (`tests/truth.rs`). The integral with the clamped cosine, in units of its
+//! largest value: 5e-6 for λ = 0.1, 6e-4 for 2.3, 1.5e-3 for 5, 3e-5 for 100; by the thesis' product of
+//! two Gaussians 0.06 for 0.1, 0.13 for 2, 0.15 for 20. The mean cosine is up to 0.16 too large (λ 2.3),
+//! and (1 − c)⁵ of it, which couples the lobes, is off the mean of (1 − c)⁵ by up to 0.16 (λ 5). The share
+//! above the horizon is off by 0.003.
 
 use std::f64::consts::{PI, TAU};
 
@@ -92,6 +98,21 @@ pub fn clamped_cosine(cosine: f64, sharpness: f64) -> Cosine {
     let reached = integral / self::integral(l);
     let mean = (cosine * mean + variance * visible / reached).clamp(0.0, 1.0);
     Cosine { integral, mean }
+}
+
+/// Sharpness of the Gaussian of amplitude 1 that stood for the clamped cosine.
+pub const COSINE_SHARPNESS: f64 = 2.0;
+
+/// The thesis' source: the cosine is a Gaussian, whose integral with another is approximated (Iwasaki et
+/// al. 2012). The mean is that of the product's axis.
+pub fn gaussian_cosine(cosine: f64, sharpness: f64) -> Cosine {
+    let sum = COSINE_SHARPNESS + sharpness;
+    let product = COSINE_SHARPNESS * sharpness;
+    let integral = TAU / sum * (product / sum * (cosine - 1.0)).exp();
+    // |2n + λp|² = (2 + λ)² − 4λ(1 − c).
+    let length = (sum * sum - 2.0 * product * (1.0 - cosine)).max(0.0).sqrt();
+    let mean = (COSINE_SHARPNESS + sharpness * cosine) / length.max(1e-12);
+    Cosine { integral, mean: mean.clamp(0.0, 1.0) }
 }
 
 /// ∫₀¹ x e^{λ(x−1)} dx.

@@ -11,8 +11,8 @@ use glam::{DMat3, DVec3};
 use manylights_gpu::SurfaceRecord;
 use manylights_scene::DBrdf;
 
-use crate::{GaussianLight, Settings, SpecularLobe};
-use gaussian::{Gaussian, SHARPEST, clamped_cosine, integral};
+use crate::{Approximation, GaussianLight, Settings};
+use gaussian::{Gaussian, SHARPEST, clamped_cosine, gaussian_cosine, integral, visible_share};
 use reflection::{Reflection, anisotropic, filtered};
 
 pub use filter::{DGaussianLobe, DIFFUSE_SHARPNESS, albedo, exact_albedo, filter};
@@ -59,9 +59,16 @@ pub fn radiance(
         return DVec3::ZERO;
     }
     let receiver = Receiver::new(surface, camera);
-    let lobes = lights.iter().flat_map(|light| [&light.diffuse, &light.specular]);
-    let present = lobes.filter(|lobe| lobe.power.max_element() > 0.0);
-    present.map(|lobe| receiver.reflect(&lobe.into(), settings.lobe)).sum()
+    let of_light = |light: &GaussianLight| {
+        let [diffuse, specular] = [&light.diffuse, &light.specular].map(|lobe| {
+            let lobe = DGaussianLobe::from(lobe);
+            (lobe.power.max_element() > 0.0).then_some(lobe)
+        });
+        let cut = settings.cut_behind;
+        diffuse.map_or(DVec3::ZERO, |lobe| receiver.reflect(&lobe, cut, settings.lobe))
+            + specular.map_or(DVec3::ZERO, |lobe| receiver.reflect(&lobe, false, settings.lobe))
+    };
+    lights.iter().map(of_light).sum()
 }
 
 /// A shaded point with its frame: tangent towards the view, bitangent, normal.
@@ -69,7 +76,8 @@ pub struct Receiver {
     position: DVec3,
     /// From local directions to those of the world.
     pub frame: DMat3,
-    /// Local unit direction to the camera.
+    /// Local unit direction to the camera, but that its cosine is at least 1e-8: a camera that is below
+    /// the shading normal's horizon alone sees the surface along it.
     pub view: DVec3,
     /// Its reflectance.
     pub brdf: DBrdf,
@@ -84,28 +92,36 @@ impl Receiver {
         let across = to_camera - normal.dot(to_camera) * normal;
         let tangent = across.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
         let frame = DMat3::from_cols(tangent, normal.cross(tangent), normal);
-        let view = frame.transpose() * to_camera;
+        let mut view = frame.transpose() * to_camera;
+        view.z = view.z.max(1e-8);
         Self { position, frame, view, brdf: DBrdf::from(surface.brdf()) }
     }
 
-    /// Radiance that one lobe of a light causes.
-    pub fn reflect(&self, lobe: &DGaussianLobe, by: SpecularLobe) -> DVec3 {
+    /// Radiance that one lobe of a light causes. A lobe about the normal of its surface may be cut there:
+    /// its share above that plane is then all that arrives, and holds all of its power.
+    pub fn reflect(&self, lobe: &DGaussianLobe, cut: bool, by: Approximation) -> DVec3 {
         let (light, strength) = lobe.incident(self.position);
         let axis = self.frame.transpose() * light.axis;
-        strength * light.log_amplitude.exp() * self.response(axis, light.sharpness, by)
+        let response = self.response(axis, light.sharpness, by);
+        let above = || visible_share(-lobe.axis.dot(light.axis), light.sharpness);
+        let share = if cut { above() * (1.0 + (-lobe.sharpness).exp()) } else { 1.0 };
+        strength * (share * light.log_amplitude.exp()) * response
     }
 
     /// ∫ G f_x ⟨n·w⟩ dw for a Gaussian of amplitude 1 about a local direction.
-    pub fn response(&self, axis: DVec3, sharpness: f64, by: SpecularLobe) -> DVec3 {
-        let cosine = clamped_cosine(axis.z, sharpness);
+    pub fn response(&self, axis: DVec3, sharpness: f64, by: Approximation) -> DVec3 {
+        let cosine = match by {
+            Approximation::Thesis => gaussian_cosine(axis.z, sharpness),
+            Approximation::Filtered => clamped_cosine(axis.z, sharpness),
+        };
         let lambert = self.brdf.diffuse * (FRAC_1_PI * cosine.integral);
         if !self.brdf.has_specular() {
             return lambert;
         }
         let coupling = self.brdf.transmission(self.view.z) * self.brdf.transmission(cosine.mean);
         let Reflection { integral, dominant } = match by {
-            SpecularLobe::Anisotropic => anisotropic(self.brdf.alpha, self.view, axis, sharpness),
-            SpecularLobe::Filtered => filtered(self.brdf.alpha, self.view, axis, sharpness),
+            Approximation::Thesis => anisotropic(self.brdf.alpha, self.view, axis, sharpness),
+            Approximation::Filtered => filtered(self.brdf.alpha, self.view, axis, sharpness),
         };
         let half = (0.5 + 0.5 * self.view.dot(dominant)).max(0.0).sqrt();
         lambert * coupling + self.brdf.fresnel(half) * integral

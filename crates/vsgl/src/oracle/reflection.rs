@@ -1,6 +1,23 @@
 //! A GGX lobe under a spherical Gaussian: two approximations of ∫ G D V ⟨n·w⟩ dw, without Fresnel.
 //!
 //! All directions are local: x the tangent on the view's side, z the normal.
+//!
+//! Errors against quadrature (`tests/lobes.rs`), root mean square over light directions in units of the
+//! largest value, mean over views of 10° to 75° and λ of 2.3 to 200:
+//!
+//! | roughness | [`filtered`] | without its blend | [`anisotropic`] |
+//! |---|---|---|---|
+//! | 0.1 to 0.35 | 0.010 | 0.036 | 0.043 |
+//! | 0.4 to 1 | 0.082 | 0.094 | 0.195 |
+//!
+//! Filtered normals alone have GGX's long tails where the light's own are exponential: where the truth is
+//! below a hundredth of its largest value, they add up to 1.2 to 31 times that (roughness 0.1 to 0.35, λ of
+//! 20 and 200), and convex metal glows in the light of its own specular lobes. Blended they add up to 0.6
+//! to 2.3 times that, to 1.1 at most for λ = 20.
+//!
+//! Fresnel's exact term, taken at one direction (λ 2.3 and 20): gold paint, teflon and red phenolic reflect
+//! in all between 12 % too much and 14 % too little, most at 75°; white fabric, whose index of 1.05 makes it
+//! the steepest, up to 46 % too little.
 
 use std::f64::consts::{PI, TAU};
 
@@ -52,10 +69,32 @@ pub fn anisotropic(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Refl
     Reflection { integral: coefficient * value, dominant }
 }
 
-/// Tokuyoshi et al. 2024: the distribution of normals widened by the light, seen along the half
-/// vector.
+/// The distribution of normals widened by the light. Its tails are those of
+/// GGX, too long where the light is the broader of the two: they are its exponential ones then. So the
+/// narrower the mirrored lobe, the more the product of two Gaussians counts, by Λ/(Λ + λ).
 pub fn filtered(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Reflection {
     let alpha2 = alpha * alpha;
+    let micro = dominant_normal(alpha2, view);
+    let mirrored = 2.0 * view.dot(micro) * micro - view;
+    let narrow = (1.0 - alpha2) / (2.0 * alpha2);
+    let along = mirrored * narrow + axis * sharpness;
+    let (length, dominant) = (along.length(), along.try_normalize().unwrap_or(mirrored));
+    // The product of the light and a normalised Gaussian about the mirrored view.
+    let sum = (narrow + sharpness).max(1e-12);
+    let lost = narrow * sharpness * (mirrored - axis).length_squared() / (length + sum);
+    let product = (-lost).exp() * integral(length) / integral(narrow);
+    let widened = by_filtered_normals(alpha2, view, axis, sharpness);
+    let blended = widened + (product - widened) * (narrow / sum);
+    let share = visible_share(dominant.z, length);
+    // G₂/G₁ there: the authors' code leaves it out and reflects up to 1.6 times too much (α = 1).
+    let (cosine, view_n) = (dominant.z.max(0.0), view.z.max(GRAZING));
+    let own = smith(alpha2, view_n);
+    let masking = cosine * (view_n + own) / (cosine * own + view_n * smith(alpha2, cosine));
+    Reflection { integral: share * masking * blended, dominant }
+}
+
+/// Tokuyoshi et al. 2024: ∫ G D/(4 v·h) dw with the widened distribution, seen along the half vector.
+fn by_filtered_normals(alpha2: f64, view: DVec3, axis: DVec3, sharpness: f64) -> f64 {
     let view_n = view.z.max(GRAZING);
     let l = 2.0 * sharpness.max(1e-12);
     let rest = 1.0 - alpha2;
@@ -66,15 +105,6 @@ pub fn filtered(alpha: f64, view: DVec3, axis: DVec3, sharpness: f64) -> Reflect
     let sum = h.x * h.x / mx + h.y * h.y / my + h.z * h.z;
     let d = if length2 > 1e-12 { sum / length2 } else { 1.0 };
     let distribution = 1.0 / (PI * (mx * my).sqrt() * d * d);
-    let lobe = distribution / (4.0 * (view.x * view.x * mx + view.z * view.z).sqrt());
-    let micro = dominant_normal(alpha2, view);
-    let mirrored = 2.0 * view.dot(micro) * micro - view;
-    let along = mirrored * (rest / (2.0 * alpha2)) + axis * sharpness;
-    let (length, dominant) = (along.length(), along.try_normalize().unwrap_or(mirrored));
-    let share = visible_share(dominant.z, length);
-    // G₂/G₁ there: the authors' code leaves it out and reflects up to 1.6 times too much (α = 1).
-    let cosine = dominant.z.max(0.0);
-    let own = smith(alpha2, view_n);
-    let masking = cosine * (view_n + own) / (cosine * own + view_n * smith(alpha2, cosine));
-    Reflection { integral: share * lobe * masking * integral(sharpness), dominant }
+    let projected = (view.x * view.x * mx + view.z * view.z).sqrt();
+    integral(sharpness) * distribution / (4.0 * projected)
 }

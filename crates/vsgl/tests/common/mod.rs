@@ -13,15 +13,17 @@ use manylights_scene::{Brdf, Scene};
 use manylights_scene::{Transport, Visibility};
 use manylights_virtual_lights::{LitTexel, VirtualLights};
 use manylights_vsgl::{
-    GaussianLight, GaussianLobe, Settings, SpecularLobe, Vsgl, gaussian_lights, oracle,
+    Approximation, GaussianLight, GaussianLobe, Settings, Vsgl, gaussian_lights, oracle,
 };
 
 pub(crate) static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
 
 pub(crate) const SETTINGS: Settings =
-    Settings { lights: 256, texels: 6, lobe: SpecularLobe::Filtered };
-pub(crate) const LOBES: [SpecularLobe; 2] = [SpecularLobe::Anisotropic, SpecularLobe::Filtered];
+    Settings { lights: 256, texels: 6, lobe: Approximation::Filtered, cut_behind: false };
+pub(crate) const THESIS: Settings = Settings { lobe: Approximation::Thesis, ..SETTINGS };
+pub(crate) const CUT: Settings = Settings { cut_behind: true, ..SETTINGS };
+pub(crate) const VARIANTS: [Settings; 3] = [SETTINGS, THESIS, CUT];
 
 pub(crate) struct Picture {
     pub(crate) image: RadianceImage,
@@ -84,13 +86,14 @@ pub(crate) fn render_scene(
 
 fn parameters(settings: &Settings) -> Parameters {
     let lobe = match settings.lobe {
-        SpecularLobe::Anisotropic => "anisotropic",
-        SpecularLobe::Filtered => "filtered",
+        Approximation::Thesis => "thesis",
+        Approximation::Filtered => "filtered",
     };
     let texts = [
         ("lights", settings.lights.to_string()),
         ("texels", settings.texels.to_string()),
         ("lobe", lobe.to_owned()),
+        ("behind", if settings.cut_behind { "cut" } else { "sent" }.to_owned()),
     ];
     Parameters::new(
         VirtualLights(Vsgl).parameters(),
