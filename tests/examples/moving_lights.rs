@@ -52,7 +52,8 @@ fn lights(grid: &Grid<f32>, frame: u32) -> Vec<AreaLight> {
     let spacing = Vec3::from(grid.spacing);
     let cells = Vec3::from(grid.vertices.map(|count| (count - 1) as f32));
     let (middle, radius) = (Vec3::from(grid.origin) + 0.5 * cells * spacing, 0.1);
-    let distance = (0.5 * cells * spacing + 2.0 * spacing).length() + 2.0 * radius;
+    let reach = Vec3::splat(2.0 * spacing.max_element());
+    let distance = (0.5 * cells * spacing + reach).length() + 2.0 * radius;
     let light = |i: u32| {
         let height = (i as f32 + 0.5) / LIGHTS as f32;
         let (sin, cos) = (2.4 * i as f32 + 0.1 * frame as f32).sin_cos();
