@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::answer::regression::times::{self, seconds};
 use crate::answer::regression::{self, Moved};
 use crate::answer::statistics::median;
 use crate::commands::machine::Machine;
 use crate::commands::run;
 use crate::error::Failure;
-use crate::measurement::cell::{Cell, Outcome};
+use crate::measurement::cell::Cell;
+use crate::measurement::inputs::{Inputs, Seen};
 use crate::measurement::lines;
 use crate::measurement::session::Session;
 use crate::output::{self, print_json, say};
@@ -29,6 +31,10 @@ pub(crate) struct CheckArguments {
     /// Makes what comes out the new baseline
     #[arg(long)]
     pub(crate) bless: bool,
+    /// Times decide as well: each as a multiple of that of the experiment's baseline, against the spread
+    /// over the seeds and repetitions of the blessed run
+    #[arg(long, conflicts_with = "bless")]
+    pub(crate) times: bool,
     /// What moved, as JSON on standard output
     #[arg(long)]
     pub(crate) json: bool,
@@ -94,8 +100,12 @@ fn compare(
         say(format_args!("{}: {} cells are the new baseline", path.display(), cells.len()));
         return Ok(Vec::new());
     }
-    let moved = regression::compare(&baseline, &cells);
-    report_times(&baseline, &cells);
+    let mut moved = regression::compare(&baseline, &cells);
+    if arguments.times {
+        moved.extend(moved_times(&experiment, directory, &baseline, &cells)?);
+    } else {
+        report_times(&baseline, &cells);
+    }
     let foreign = baseline.iter().find(|old| {
         let alike = |new: &&Cell| new.inputs.label() == old.inputs.label();
         let same = |new: &Cell| regression::same_digits(&old.provenance, &new.provenance);
@@ -155,17 +165,35 @@ fn print_table(moved: &[Moved]) {
     }
 }
 
+/// What moved of the times, as multiples of that of the experiment's baseline.
+fn moved_times(
+    experiment: &Experiment,
+    directory: &Path,
+    before: &[Cell],
+    now: &[Cell],
+) -> Result<Vec<Moved>, Failure> {
+    let place = directory.display();
+    if !same_machine(before, now) {
+        return Err(Failure::input(format!(
+            "{place}: --times: the baseline is another machine's: bless one of this machine"
+        )));
+    }
+    let baseline = &experiment.variants[experiment.baseline];
+    let label = Inputs::new(experiment, baseline, Seen { scene: "", camera: None, content: "", exposure: 1.0 }).label();
+    times::compare(before, now, &label)
+        .map_err(|reason| Failure::input(format!("{place}: {reason}")))
+}
+
+fn same_machine(before: &[Cell], now: &[Cell]) -> bool {
+    before.iter().zip(now).all(|(a, b)| a.provenance.machine == b.provenance.machine)
+}
+
 /// For information alone: times decide nothing.
 fn report_times(before: &[Cell], now: &[Cell]) {
-    let same = before.iter().zip(now).all(|(a, b)| a.provenance.machine == b.provenance.machine);
-    if !same {
+    if !same_machine(before, now) {
         say("times: the baseline is another machine's, so they are not compared");
         return;
     }
-    let seconds = |cell: &Cell| match &cell.outcome {
-        Outcome::Done(done) => Some(done.step_seconds),
-        _ => None,
-    };
     let pairs = before.iter().filter_map(|old| {
         let alike = |new: &&Cell| {
             let labels = new.inputs.label() == old.inputs.label();
