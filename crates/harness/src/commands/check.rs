@@ -11,6 +11,7 @@ use crate::error::Failure;
 use crate::measurement::cell::Cell;
 use crate::measurement::inputs::{Inputs, Seen};
 use crate::measurement::lines;
+use crate::measurement::provenance::Provenance;
 use crate::measurement::session::Session;
 use crate::output::{self, print_json, say};
 use crate::question::experiment::{self, Experiment};
@@ -91,6 +92,10 @@ fn compare(
         let place = path.display();
         return Err(Failure::input(format!("{place}: no baseline: make one with --bless")));
     }
+    let unit = match arguments.times {
+        true => Some(unit_of_times(&experiment, directory, &baseline)?),
+        false => None,
+    };
     // References too are made afresh: those of a cache are from before the change.
     let fresh = tempfile::tempdir().map_err(Failure::input)?;
     let cells = measure(&experiment, &baseline, [fresh.path(), directory], arguments)?;
@@ -101,10 +106,9 @@ fn compare(
         return Ok(Vec::new());
     }
     let mut moved = regression::compare(&baseline, &cells);
-    if arguments.times {
-        moved.extend(moved_times(&experiment, directory, &baseline, &cells)?);
-    } else {
-        report_times(&baseline, &cells);
+    match unit {
+        Some(unit) => moved.extend(times::compare(&baseline, &cells, &unit)),
+        None => report_times(&baseline, &cells),
     }
     let foreign = baseline.iter().find(|old| {
         let alike = |new: &&Cell| new.inputs.label() == old.inputs.label();
@@ -165,32 +169,30 @@ fn print_table(moved: &[Moved]) {
     }
 }
 
-/// What moved of the times, as multiples of that of the experiment's baseline.
-fn moved_times(
+/// The label of the variant whose time is the unit of all others, where the baseline has what times are
+/// compared with.
+fn unit_of_times(
     experiment: &Experiment,
     directory: &Path,
-    before: &[Cell],
-    now: &[Cell],
-) -> Result<Vec<Moved>, Failure> {
-    let place = directory.display();
-    if !same_machine(before, now) {
-        return Err(Failure::input(format!(
-            "{place}: --times: the baseline is another machine's: bless one of this machine"
-        )));
+    baseline: &[Cell],
+) -> Result<String, Failure> {
+    let refused =
+        |reason: String| Failure::input(format!("{}: --times: {reason}", directory.display()));
+    let here = Provenance::here(None).machine;
+    if baseline.iter().any(|cell| cell.provenance.machine != here) {
+        return Err(refused("the baseline is another machine's: bless it on this one".to_owned()));
     }
-    let baseline = &experiment.variants[experiment.baseline];
-    let label = Inputs::new(experiment, baseline, Seen { scene: "", camera: None, content: "", exposure: 1.0 }).label();
-    times::compare(before, now, &label)
-        .map_err(|reason| Failure::input(format!("{place}: {reason}")))
-}
-
-fn same_machine(before: &[Cell], now: &[Cell]) -> bool {
-    before.iter().zip(now).all(|(a, b)| a.provenance.machine == b.provenance.machine)
+    let unit = &experiment.variants[experiment.baseline];
+    let seen = Seen { scene: "", camera: None, content: "", exposure: 1.0 };
+    let label = Inputs::new(experiment, unit, seen).label();
+    times::check_baseline(baseline, &label).map_err(refused)?;
+    Ok(label)
 }
 
 /// For information alone: times decide nothing.
 fn report_times(before: &[Cell], now: &[Cell]) {
-    if !same_machine(before, now) {
+    let same = before.iter().zip(now).all(|(a, b)| a.provenance.machine == b.provenance.machine);
+    if !same {
         say("times: the baseline is another machine's, so they are not compared");
         return;
     }
