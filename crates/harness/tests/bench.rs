@@ -216,6 +216,10 @@ fn a_check_passes_on_an_unchanged_tree_and_names_what_moved() {
     succeeded(&manylights(&["check", "--baseline", &baseline, "--bless"]));
     assert_eq!(json(&["check", "--baseline", &baseline, "--json"]), serde_json::json!([]));
 
+    // Two repetitions of two seeds tell too little of how far times spread.
+    refused(&["check", "--baseline", &baseline, "--times"], "has 4 times over those of `reference");
+    refused(&["check", "--baseline", &baseline, "--times", "--bless"], "--bless");
+
     // As if a picture had been another one: the check must name the cell.
     let text = place.read("cells.jsonl");
     let first: Value = serde_json::from_str(text.lines().next().expect("a line")).expect("JSON");

@@ -54,3 +54,26 @@ pub(crate) fn image(
     let pixels = pixels.map(|pixel| pixel.map(|c| c as f32)).collect();
     RadianceImage { width, height, pixels }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1, 2, 4, 9 have the mean 4 and the squared deviations 9 + 4 + 0 + 25: over 3 for their variance, over
+    /// 4 for that of the mean. The halves are 1, 4 and 2, 9.
+    #[test]
+    fn variance_of_the_mean_of_four_slices() {
+        let mut sums = Sums::default();
+        for (slice, value) in (0..).zip([1.0, 2.0, 4.0, 9.0]) {
+            sums.add(slice, [value, 2.0 * value, 0.0]);
+        }
+        assert_eq!(sums.mean(4), [4.0, 8.0, 0.0]);
+        assert_eq!(sums.half(0, 4), [2.5, 5.0, 0.0]);
+        assert_eq!(sums.half(1, 4), [5.5, 11.0, 0.0]);
+        let expected = 38.0 / 3.0 / 4.0;
+        for (found, expected) in sums.variance(4).into_iter().zip([expected, 4.0 * expected, 0.0]) {
+            assert!((found - expected).abs() < 1e-12, "{found}, expected {expected}");
+        }
+        assert_eq!(Sums::default().variance(1), [0.0; 3]);
+    }
+}

@@ -7,6 +7,7 @@ mod determinism;
 mod emitters;
 mod integrating_sphere;
 mod panels;
+mod shading_normals;
 mod transports;
 
 #[path = "../../scene/tests/common/tensor.rs"]

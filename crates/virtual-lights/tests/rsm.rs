@@ -29,6 +29,25 @@ fn a_point_light_emits_4_pi_intensity() {
     }
 }
 
+/// 2π I ((1 − c) + (c − c')/3) of the cosines c and c' of the inner and the outer angle: the edge is the square
+/// of a linear ramp in the cosine. A narrow spot has one map, a wide one a cube.
+#[test]
+fn a_spot_emits_what_its_edge_lets_through() {
+    let direction = Vec3::new(0.3, -0.8, 0.4).normalize();
+    for (inner, outer, count) in [(0.3_f32, 0.5_f32, 1), (0.9, 1.4, 6)] {
+        let intensity = Vec3::splat(2.0);
+        let light = Light::Spot { position: Vec3::Y, direction, intensity, inner, outer };
+        let (c, c_outer) = (inner.cos(), outer.cos());
+        let expected = 4.0 * PI * ((1.0 - c) + (c - c_outer) / 3.0);
+        for seed in [0, 7] {
+            let maps = maps(&scene(), &light, 60_000, seed);
+            assert_eq!(maps.len(), count);
+            let error = flux(&maps) / expected - 1.0;
+            assert!(error.abs() < 1e-3, "{outer} {seed}: {error:e}");
+        }
+    }
+}
+
 /// The map covers the scene, and each cell carries E ΔA.
 #[test]
 fn parallel_light_fills_its_map() {

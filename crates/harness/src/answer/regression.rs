@@ -2,7 +2,9 @@
 //!
 //! Counts and pictures are deterministic, and compared bit for bit where processor, system and driver
 //! are the same. Counts and errors are compared everywhere, seed by seed: the spread over seeds, which
-//! is far larger than a regression, cancels. Times are never compared here.
+//! is far larger than a regression, cancels. Times are compared where that is asked for ([`times`]).
+
+pub(crate) mod times;
 
 use std::collections::BTreeMap;
 
@@ -164,7 +166,7 @@ mod tests {
     use crate::question::plan::{Bounded, Budget};
     use manylights_metrics::Errors;
 
-    fn cell(seed: u64, rmse: f64, program: &str) -> Cell {
+    pub(super) fn cell(seed: u64, rmse: f64, program: &str) -> Cell {
         let [mse, mae, psnr, ssim, rel_mse, smape, rel_p999] = [0.0; 7];
         let (rel_mse_trimmed, flip) = (None, None);
         let errors =

@@ -2,13 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::answer::regression::times::{self, seconds};
 use crate::answer::regression::{self, Moved};
 use crate::answer::statistics::median;
 use crate::commands::machine::Machine;
 use crate::commands::run;
 use crate::error::Failure;
-use crate::measurement::cell::{Cell, Outcome};
+use crate::measurement::cell::Cell;
+use crate::measurement::inputs::{Inputs, Seen};
 use crate::measurement::lines;
+use crate::measurement::provenance::Provenance;
 use crate::measurement::session::Session;
 use crate::output::{self, print_json, say};
 use crate::question::experiment::{self, Experiment};
@@ -29,6 +32,10 @@ pub(crate) struct CheckArguments {
     /// Makes what comes out the new baseline
     #[arg(long)]
     pub(crate) bless: bool,
+    /// Times decide as well: each as a multiple of that of the experiment's baseline, against the spread
+    /// over the seeds and repetitions of the blessed run
+    #[arg(long, conflicts_with = "bless")]
+    pub(crate) times: bool,
     /// What moved, as JSON on standard output
     #[arg(long)]
     pub(crate) json: bool,
@@ -85,6 +92,10 @@ fn compare(
         let place = path.display();
         return Err(Failure::input(format!("{place}: no baseline: make one with --bless")));
     }
+    let unit = match arguments.times {
+        true => Some(unit_of_times(&experiment, directory, &baseline)?),
+        false => None,
+    };
     // References too are made afresh: those of a cache are from before the change.
     let fresh = tempfile::tempdir().map_err(Failure::input)?;
     let cells = measure(&experiment, &baseline, [fresh.path(), directory], arguments)?;
@@ -94,8 +105,11 @@ fn compare(
         say(format_args!("{}: {} cells are the new baseline", path.display(), cells.len()));
         return Ok(Vec::new());
     }
-    let moved = regression::compare(&baseline, &cells);
-    report_times(&baseline, &cells);
+    let mut moved = regression::compare(&baseline, &cells);
+    match unit {
+        Some(unit) => moved.extend(times::compare(&baseline, &cells, &unit)),
+        None => report_times(&baseline, &cells),
+    }
     let foreign = baseline.iter().find(|old| {
         let alike = |new: &&Cell| new.inputs.label() == old.inputs.label();
         let same = |new: &Cell| regression::same_digits(&old.provenance, &new.provenance);
@@ -155,6 +169,26 @@ fn print_table(moved: &[Moved]) {
     }
 }
 
+/// The label of the variant whose time is the unit of all others, where the baseline has what times are
+/// compared with.
+fn unit_of_times(
+    experiment: &Experiment,
+    directory: &Path,
+    baseline: &[Cell],
+) -> Result<String, Failure> {
+    let refused =
+        |reason: String| Failure::input(format!("{}: --times: {reason}", directory.display()));
+    let here = Provenance::here(None).machine;
+    if baseline.iter().any(|cell| cell.provenance.machine != here) {
+        return Err(refused("the baseline is another machine's: bless it on this one".to_owned()));
+    }
+    let unit = &experiment.variants[experiment.baseline];
+    let seen = Seen { scene: "", camera: None, content: "", exposure: 1.0 };
+    let label = Inputs::new(experiment, unit, seen).label();
+    times::check_baseline(baseline, &label).map_err(refused)?;
+    Ok(label)
+}
+
 /// For information alone: times decide nothing.
 fn report_times(before: &[Cell], now: &[Cell]) {
     let same = before.iter().zip(now).all(|(a, b)| a.provenance.machine == b.provenance.machine);
@@ -162,10 +196,6 @@ fn report_times(before: &[Cell], now: &[Cell]) {
         say("times: the baseline is another machine's, so they are not compared");
         return;
     }
-    let seconds = |cell: &Cell| match &cell.outcome {
-        Outcome::Done(done) => Some(done.step_seconds),
-        _ => None,
-    };
     let pairs = before.iter().filter_map(|old| {
         let alike = |new: &&Cell| {
             let labels = new.inputs.label() == old.inputs.label();
