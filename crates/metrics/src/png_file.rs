@@ -1,5 +1,6 @@
 //! Pictures as 8-bit PNG, for people.
 
+use std::io::Write;
 use std::path::Path;
 
 use image::codecs::png::PngEncoder;
@@ -19,17 +20,26 @@ impl RadianceImage {
     /// # Errors
     /// One line where the file cannot be written or the exposure is not above zero.
     pub fn write_png(&self, path: &Path, exposure: f32) -> Result<(), Error> {
+        let bytes = self.png(exposure)?;
+        write_atomically(path, |writer| writer.write_all(&bytes).map_err(|error| error.to_string()))
+    }
+
+    /// The same file in memory.
+    ///
+    /// # Errors
+    /// One line where the exposure is not above zero.
+    pub fn png(&self, exposure: f32) -> Result<Vec<u8>, Error> {
         self.check_shape()?;
         if !(exposure.is_finite() && exposure > 0.0) {
             return Err(Error::Exposure(exposure));
         }
         let shown = self.display(exposure);
         let bytes: Vec<u8> = shown.pixels.iter().flat_map(quantise).collect();
-        write_atomically(path, |writer| {
-            PngEncoder::new(writer)
-                .write_image(&bytes, self.width, self.height, ExtendedColorType::Rgb8)
-                .map_err(|error| error.to_string())
-        })
+        let mut file = Vec::new();
+        PngEncoder::new(&mut file)
+            .write_image(&bytes, self.width, self.height, ExtendedColorType::Rgb8)
+            .expect("memory takes any bytes of the right number");
+        Ok(file)
     }
 }
 

@@ -4,13 +4,18 @@ use manylights_metrics::RadianceImage;
 
 use crate::measurement::reference::SceneReference;
 
+/// That of pictures against any of the references of their scene.
+pub(crate) fn error_scale(images: &[&RadianceImage], references: &[SceneReference]) -> f32 {
+    scale_of(images, &references.iter().map(SceneReference::image).collect::<Vec<_>>())
+}
+
 /// The 99th percentile of the mean absolute error over the components, against any of the references,
 /// rounded up to 1, 2 or 5 times a power of ten, so that fireflies do not hide the rest.
-pub(crate) fn error_scale(images: &[&RadianceImage], references: &[SceneReference]) -> f32 {
+pub(crate) fn scale_of(images: &[&RadianceImage], references: &[&RadianceImage]) -> f32 {
     let mut errors: Vec<f32> = Vec::new();
     for image in images {
         for reference in references {
-            let pairs = image.pixels.iter().zip(&reference.image().pixels);
+            let pairs = image.pixels.iter().zip(&reference.pixels);
             errors
                 .extend(pairs.map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f32>() / 3.0));
         }

@@ -49,6 +49,15 @@ pub(crate) fn compare(before: &[Cell], now: &[Cell]) -> Vec<Moved> {
     moved
 }
 
+/// The cells whose pictures stand for a variant on a scene, those of its first seed, by its name.
+pub(crate) fn pictured(cells: &[Cell]) -> BTreeMap<String, &Cell> {
+    let firsts = groups(cells).into_iter().filter_map(|(name, group)| {
+        let (_, cell) = group.into_iter().next()?;
+        matches!(cell.outcome, Outcome::Done(_)).then_some((name, cell))
+    });
+    firsts.collect()
+}
+
 fn groups(cells: &[Cell]) -> BTreeMap<String, Group<'_>> {
     let mut groups: BTreeMap<String, Group<'_>> = BTreeMap::new();
     for cell in cells.iter().filter(|cell| cell.inputs.repetition == 0) {

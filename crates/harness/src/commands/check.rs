@@ -11,13 +11,16 @@ use crate::error::Failure;
 use crate::measurement::cell::Cell;
 use crate::measurement::inputs::{Inputs, Seen};
 use crate::measurement::lines;
+use crate::measurement::pictures::image_path;
 use crate::measurement::provenance::Provenance;
 use crate::measurement::session::Session;
 use crate::output::{self, print_json, say};
 use crate::question::experiment::{self, Experiment};
 use crate::question::profiles::Profile;
 use crate::registry::Methods;
+use crate::show::changes::{self, Change};
 use clap::Args;
+use manylights_metrics::RadianceImage;
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
@@ -36,6 +39,9 @@ pub(crate) struct CheckArguments {
     /// over the seeds and repetitions of the blessed run
     #[arg(long, conflicts_with = "bless")]
     pub(crate) times: bool,
+    /// What moved as a page, with pictures: before, now, difference
+    #[arg(long, value_name = "FILE.html", conflicts_with = "bless")]
+    pub(crate) page: Option<PathBuf>,
     /// What moved, as JSON on standard output
     #[arg(long)]
     pub(crate) json: bool,
@@ -51,13 +57,18 @@ pub(crate) struct CheckArguments {
 /// One line: bad input; or something moved, after a table of it.
 pub(crate) fn run(arguments: &CheckArguments, methods: Methods) -> Result<(), Failure> {
     let mut moved = Vec::new();
+    let mut changes = Vec::new();
     let mut folders = Vec::new();
     for directory in &arguments.baseline {
-        let of_folder = compare(directory, arguments, methods)?;
+        let (of_folder, pictures) = compare(directory, arguments, methods)?;
         if !of_folder.is_empty() {
             folders.push(directory.display().to_string());
         }
         moved.extend(of_folder);
+        changes.extend(pictures);
+    }
+    if let Some(page) = &arguments.page {
+        output::write(page, changes::page(&moved, &changes)?.as_bytes())?;
     }
     if arguments.json {
         print_json(&serde_json::to_value(&moved).expect("plain data"))?;
@@ -73,12 +84,12 @@ pub(crate) fn run(arguments: &CheckArguments, methods: Methods) -> Result<(), Fa
     )))
 }
 
-/// What moved against one baseline; nothing where it is blessed.
+/// What moved against one baseline, and the pictures of it; nothing where it is blessed.
 fn compare(
     directory: &Path,
     arguments: &CheckArguments,
     methods: Methods,
-) -> Result<Vec<Moved>, Failure> {
+) -> Result<(Vec<Moved>, Vec<Change>), Failure> {
     let file = directory.join("experiment.toml");
     let experiment = experiment::read(&file, Profile::Quick, methods).map_err(Failure::input)?;
     let path = directory.join("cells.jsonl");
@@ -102,8 +113,9 @@ fn compare(
     if arguments.bless {
         let lines: String = cells.iter().map(lines::line).collect();
         output::write(&path, lines.as_bytes())?;
+        keep_pictures(&cells, [fresh.path(), directory])?;
         say(format_args!("{}: {} cells are the new baseline", path.display(), cells.len()));
-        return Ok(Vec::new());
+        return Ok((Vec::new(), Vec::new()));
     }
     let mut moved = regression::compare(&baseline, &cells);
     match unit {
@@ -125,7 +137,66 @@ fn compare(
     if moved.is_empty() {
         say(format_args!("{}: nothing moved: {} cells", directory.display(), cells.len()));
     }
-    Ok(moved)
+    let changes = match arguments.page {
+        Some(_) => changes_of(&moved, [&baseline, &cells], [directory, fresh.path()])?,
+        None => Vec::new(),
+    };
+    Ok((moved, changes))
+}
+
+/// The picture of a cell beside the lines of a baseline.
+fn kept_picture(directory: &Path, cell: &Cell) -> PathBuf {
+    let name = format!("{}-{}.exr", cell.inputs.view(), &cell.key[..16]);
+    directory.join("pictures").join(name)
+}
+
+/// Puts the pictures of each variant's first seed into the baseline's folder, in the place of those before.
+fn keep_pictures(cells: &[Cell], [fresh, directory]: [&Path; 2]) -> Result<(), Failure> {
+    let folder = directory.join("pictures");
+    let at = |error: std::io::Error| Failure::input(format!("{}: {error}", folder.display()));
+    std::fs::create_dir_all(&folder).map_err(at)?;
+    for entry in folder.read_dir().map_err(at)? {
+        let path = entry.map_err(at)?.path();
+        if path.extension().is_some_and(|extension| extension == "exr") {
+            std::fs::remove_file(&path).map_err(at)?;
+        }
+    }
+    for cell in regression::pictured(cells).values() {
+        let image = image_path(fresh, &cell.inputs.view(), &cell.key).with_extension("exr");
+        let image = RadianceImage::read_exr(&image).map_err(Failure::input)?;
+        image.write_exr(&kept_picture(directory, cell), &[]).map_err(Failure::input)?;
+    }
+    Ok(())
+}
+
+/// The pictures of what moved, where there are some.
+fn changes_of(
+    moved: &[Moved],
+    [before, now]: [&[Cell]; 2],
+    [directory, fresh]: [&Path; 2],
+) -> Result<Vec<Change>, Failure> {
+    let [before, now] = [before, now].map(regression::pictured);
+    let read = |path: PathBuf| match path.exists() {
+        true => RadianceImage::read_exr(&path).map(Some).map_err(Failure::input),
+        false => Ok(None),
+    };
+    let mut names: Vec<&String> = moved.iter().map(|moved| &moved.cell).collect();
+    names.dedup();
+    let change = |name: &String| {
+        let [old, new] = [before.get(name), now.get(name)];
+        let image = |cell: &Cell| image_path(fresh, &cell.inputs.view(), &cell.key);
+        let cell = new.or(old)?;
+        let paths = [
+            old.map(|cell| kept_picture(directory, cell)),
+            new.map(|cell| image(cell).with_extension("exr")),
+        ];
+        Some((name.clone(), cell.inputs.exposure, paths))
+    };
+    let changes = names.into_iter().filter_map(change).map(|(cell, exposure, paths)| {
+        let [before, now] = paths.map(|path| path.map_or(Ok(None), read));
+        Ok(Change { cell, exposure, before: before?, now: now? })
+    });
+    changes.collect()
 }
 
 fn measure(

@@ -1,6 +1,7 @@
 //! How the answer is shown: tables, curves, sheets, the report.
 
 pub(crate) mod answer_files;
+pub(crate) mod changes;
 pub(crate) mod curves;
 pub(crate) mod layers;
 pub(crate) mod lettering;

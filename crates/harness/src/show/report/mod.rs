@@ -25,7 +25,8 @@ use crate::show::curves::Figure;
 use crate::show::table;
 use crate::show::table::Table;
 use pictures::Pictures;
-use template::{escaped, fill, in_script};
+pub(super) use template::escaped;
+use template::{fill, in_script};
 
 pub(crate) use load::{Loaded, load};
 

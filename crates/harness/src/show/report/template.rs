@@ -14,7 +14,7 @@ pub(super) fn fill(template: &str, values: &[(&str, &str)]) -> String {
 }
 
 /// Text between tags or in an attribute.
-pub(super) fn escaped(text: &str) -> String {
+pub(in crate::show) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for character in text.chars() {
         match character {
