@@ -9,7 +9,8 @@ pub const LIGHTS: ParameterInfo = ParameterInfo {
     name: "lights",
     formerly: None,
     introduced: None,
-    help: "cells of the reflective shadow maps, rounded up to whole square maps",
+    help: "lit cells of the shadow maps, met within 1 % where maps can; a cube about a point light has whole \
+           cells, so 384 for 400, 1944 for 1928",
     kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
 };
 

@@ -100,10 +100,10 @@ impl Estimator for Vsgl {
         AlbedoTables(materials): &AlbedoTables,
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
+        let ManyLightFrame { eye, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
         let materials = materials.clone();
-        let shadows = frame.shadows()?;
+        let (maps, shadows) = (frame.maps(settings.lights)?, frame.shadows()?);
         let gather = gather::gather(
             gpu,
             (on_gpu.surfaces(), pixels),
@@ -114,7 +114,7 @@ impl Estimator for Vsgl {
         )?;
         let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {
-            let (lights, times) = lights_of_materials(on_gpu, scene, &materials, &settings, seed)?;
+            let (lights, times) = lights_of_materials(on_gpu, &maps, &materials, &settings)?;
             Ok((gather::batches(gather, &lights)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))
