@@ -9,8 +9,8 @@ pub const LIGHTS: ParameterInfo = ParameterInfo {
     name: "lights",
     formerly: None,
     introduced: None,
-    help: "lit cells of the shadow maps, met within 1 % where maps can; a cube about a point light has whole \
-           cells, so 384 for 400, 1944 for 1928",
+    help: "shadow-map cells that are lit: to 1 %, but whole cells on the six faces about a point light \
+           (384 of 400) and one for each primary light; vsgl also lights cells of which any texel is lit",
     kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
 };
 
