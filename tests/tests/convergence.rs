@@ -29,16 +29,18 @@ fn errors<const N: usize>(
 ///
 /// Lights lie on a grid of spacing h ∝ count^(−1/2). Pixels within h of a light see its 1/d² instead
 /// of the mean over its cell: a share ∝ h of those next to edges is wrong by as much as it is bright,
-/// so the RMSE falls with h^(1/2), to a half for 16 times the lights. The bound leaves a factor 1.5.
+/// so the mean absolute error falls with h, to a quarter for 16 times the lights, until the noise of the
+/// reference is left: of a normal one √(2/π) of its RMSE. The RMSE falls with h^(1/2) and is a matter of
+/// chance: of parallel light and 1024 lights single pixels make it 0.010 to 0.026 in four seeds.
 fn without_visibility(stage: &Stage) {
     let counts = [64, 1024, 16_384, 262_144];
     let (errors, floor) = errors(stage, Visibility::Ignored, 2048, counts);
-    let errors = errors.map(|errors| errors.rmse);
-    println!("RMSE {errors:?}, noise floor {floor}");
-    for pair in errors.windows(2) {
-        assert!(pair[1] < 0.75 * pair[0], "{errors:?}");
+    let errors = errors.map(|errors| errors.mae);
+    println!("mean absolute errors {errors:?}, noise floor {floor}");
+    for pair in errors[..3].windows(2) {
+        assert!(pair[1] < 0.5 * pair[0], "{errors:?}");
     }
-    assert!(errors[3] < 2.0 * floor, "{errors:?}, {floor}");
+    assert!(errors[3] < floor, "{errors:?}, {floor}");
 }
 
 #[test]

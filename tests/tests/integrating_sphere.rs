@@ -11,7 +11,7 @@ use manylights_scene::Brdf;
 use manylights_scene::Visibility;
 use manylights_scene::builtin::integrating_sphere::{ALBEDO, INTENSITY, RADIUS};
 use manylights_tests::Stage;
-use manylights_virtual_lights::VirtualLights;
+use manylights_virtual_lights::{VirtualLights, scene_maps};
 use manylights_vpl::Vpl;
 use manylights_vsgl::oracle::DIFFUSE_SHARPNESS;
 use manylights_vsgl::{GaussianLight, GaussianLobe, Settings, Vsgl, gaussian_lights, oracle};
@@ -108,7 +108,9 @@ fn gaussian_bias(lights: u64, texels: u32) -> [f64; 2] {
     let settings = Settings { lights, texels, ..Settings::default() };
     let parameters = [("lights", &*lights.to_string()), ("texels", &*texels.to_string())];
     let image = stage.picture(&VirtualLights(Vsgl), &parameters, Visibility::Ignored, 0);
-    let (lights, _) = gaussian_lights(&stage.on_gpu, &stage.scene, &settings, 0).expect("lights");
+    let maps = scene_maps(&stage.on_gpu, &stage.scene, settings.lights, 0).expect("maps");
+    let (lights, _) =
+        gaussian_lights(&stage.on_gpu, &stage.scene, &maps, &settings).expect("lights");
     let (surfaces, eye) = (stage.surfaces(), stage.scene.cameras[0].position.as_dvec3());
     let truth = surfaces.iter().map(|surface| oracle::radiance(surface, eye, &lights, &settings).y);
     let sums = [image.pixels.iter().map(|pixel| f64::from(pixel[1])).sum(), truth.sum::<f64>()];

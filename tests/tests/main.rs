@@ -14,6 +14,7 @@ mod harmonics_wgsl;
 mod import_circles;
 mod integrating_sphere;
 mod invariants;
+mod light_counts;
 mod limits;
 mod results_age;
 mod single_lights;

@@ -25,7 +25,9 @@ use manylights_reflectance::zonal::ZonalTable;
 use manylights_reflectance::{Damping, TABLES_VERSION, diffuse};
 use manylights_scene::{Lobe, Scene, Transport};
 use manylights_tests::{GPU, Stage, under_spheres, under_triangles};
-use manylights_virtual_lights::{PLACEMENT_VERSION, RadiusRule, distribute, lit_maps, radii};
+use manylights_virtual_lights::{
+    PLACEMENT_VERSION, RadiusRule, distribute, lit_maps, radii, scene_maps,
+};
 use serde_json::{Value, json};
 
 const RESOLUTION: [u32; 2] = [24, 16];
@@ -158,7 +160,8 @@ fn shared() -> [(&'static str, u32); 3] {
 
 fn of_placement() -> Sketch {
     let stage = Stage::builtin("trio", RESOLUTION);
-    let (maps, _) = lit_maps(&stage.on_gpu, &stage.scene, 64, 1).expect("lights");
+    let maps = scene_maps(&stage.on_gpu, &stage.scene, 64, 1).expect("maps");
+    let (maps, _) = lit_maps(&stage.on_gpu, &stage.scene, &maps).expect("lights");
     let lights = maps.iter().flat_map(|map| map.lights.iter().flatten());
     let lights = components(lights.flat_map(|light| [light.position, light.normal, light.flux]));
     let reach = RadiusRule::ALL.map(|rule| radii(&stage.scene, &maps, rule).0);
@@ -174,7 +177,8 @@ fn of_shaders() -> Sketch {
     let seen = components(surfaces.iter().flat_map(|surface| {
         [surface.position, surface.normal, surface.diffuse, surface.f0, Vec3::splat(surface.alpha)]
     }));
-    let (lights, _) = distribute(&stage.on_gpu, &stage.scene, 64, 1).expect("lights");
+    let maps = scene_maps(&stage.on_gpu, &stage.scene, 64, 1).expect("maps");
+    let (lights, _) = distribute(&stage.on_gpu, &stage.scene, &maps).expect("lights");
     let centers: Vec<_> = lights.iter().map(Into::into).collect();
     let shadows = Shadows::new(&stage.on_gpu, &stage.scene).expect("the hierarchy fits");
     let occluded = shadows.occluded_lights(&centers).expect("a pass");

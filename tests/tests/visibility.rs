@@ -5,7 +5,7 @@ use manylights_gpu::{Center, Shadows, SurfaceRecord};
 use manylights_method::Method;
 use manylights_scene::Visibility;
 use manylights_tests::Stage;
-use manylights_virtual_lights::{VirtualLights, distribute};
+use manylights_virtual_lights::{VirtualLights, distribute, scene_maps};
 use manylights_vpl::Vpl;
 use manylights_vsgl::{Vsgl, gaussian_lights};
 
@@ -51,7 +51,10 @@ fn points() {
     pixels_sum_what_they_see(
         &VirtualLights(Vpl),
         &[("lights", "400")],
-        |stage| distribute(&stage.on_gpu, &stage.scene, 400, 0).expect("lights").0,
+        |stage| {
+            let maps = scene_maps(&stage.on_gpu, &stage.scene, 400, 0).expect("maps");
+            distribute(&stage.on_gpu, &stage.scene, &maps).expect("lights").0
+        },
         |light| Center::from(light),
         |surface, eye, lights| {
             manylights_vpl::oracle::radiance(surface, eye, lights, &Default::default())
@@ -65,7 +68,10 @@ fn gaussians() {
     pixels_sum_what_they_see(
         &VirtualLights(Vsgl),
         &[("lights", "300"), ("texels", "5")],
-        |stage| gaussian_lights(&stage.on_gpu, &stage.scene, &settings, 0).expect("lights").0,
+        |stage| {
+            let maps = scene_maps(&stage.on_gpu, &stage.scene, 300, 0).expect("maps");
+            gaussian_lights(&stage.on_gpu, &stage.scene, &maps, &settings).expect("lights").0
+        },
         |light| Center::new(light.center, light.geometric_normal),
         |surface, eye, lights| manylights_vsgl::oracle::radiance(surface, eye, lights, &settings),
     );

@@ -129,17 +129,18 @@ impl Estimator for Hvl {
         tables: &LobeTables,
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
+        let ManyLightFrame { scene, eye, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
         let materials = Materials::of_scene(scene);
-        let (shadows, tables) = (frame.shadows()?, tables.on_gpu.clone());
+        let (maps, shadows) = (frame.maps(settings.lights)?, frame.shadows()?);
+        let tables = tables.on_gpu.clone();
         let surfaces = (on_gpu.surfaces(), pixels);
         let gather = gather::gather(gpu, surfaces, eye, &materials, tables, &settings, shadows)?;
         let products_a_pair = even_count(settings.bands) * materials.kinds().channels();
         let products_a_batch = u64::from(pixels) * (CAPACITY * products_a_pair) as u64;
         let batches_a_step = PRODUCTS_A_STEP / products_a_batch;
         let place = move |gather: &LightGather| {
-            let (lights, times) = virtual_spheres(on_gpu, scene, &settings, seed)?;
+            let (lights, times) = virtual_spheres(on_gpu, scene, &maps, &settings)?;
             Ok((gather::batches(gather, &lights, &materials, &settings)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))

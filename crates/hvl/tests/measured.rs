@@ -13,7 +13,7 @@ use manylights_reflectance::lobes::{LobeTable, NODES};
 use manylights_reflectance::{Damping, LobeShape};
 use manylights_scene::{Brdf, DBrdf, Lobe, Measured, Scene};
 use manylights_scene::{Transport, Visibility};
-use manylights_virtual_lights::{VirtualLight, VirtualLights};
+use manylights_virtual_lights::{VirtualLight, VirtualLights, scene_maps};
 
 fn load(file: &[u8]) -> Brdf {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -233,7 +233,8 @@ fn a_picture_agrees_with_the_oracle() {
         let on_gpu = frame.gpu.expect("given");
         let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("a G-buffer");
         let settings = Settings { lights: 100, emission_bands: 3, ..Settings::default() };
-        let (lights, _) = virtual_spheres(on_gpu, scene, &settings, 0).expect("lights");
+        let maps = scene_maps(on_gpu, scene, settings.lights, 0).expect("maps");
+        let (lights, _) = virtual_spheres(on_gpu, scene, &maps, &settings).expect("lights");
         let measured = |brdf: Brdf| matches!(brdf.lobe, Lobe::Measured(_));
         assert!(surfaces.iter().any(|surface| measured(surface.brdf())), "none in the picture");
         assert!(lights.iter().any(|sphere| measured(sphere.light.brdf)), "none under a light");

@@ -9,6 +9,7 @@ mod light_gather;
 mod lit_texels;
 mod many_lights;
 mod parameters;
+mod placement;
 mod radius;
 mod rsm;
 mod solid_angle;
@@ -17,7 +18,7 @@ mod virtual_sphere;
 
 /// Of where virtual lights lie, what they carry and how far they reach: raised whenever the same scene,
 /// seed and count give other ones.
-pub const PLACEMENT_VERSION: u32 = 1;
+pub const PLACEMENT_VERSION: u32 = 2;
 
 pub use gather_shader::{EstimatorShader, GatherShader, PixelsALane};
 pub use light_gather::{LightBatches, LightGather, Lights};
@@ -26,8 +27,9 @@ pub use many_lights::{
     Estimator, ManyLightFrame, ManyLightRun, PlacedLights, SceneTables, VirtualLights,
 };
 pub use parameters::{LIGHTS, RADIUS, SCALE};
+pub use placement::scene_maps;
 pub use radius::{RadiusRule, radii};
-pub use rsm::{Map, MapCell, maps, scene_maps};
+pub use rsm::{Map, MapCell, maps};
 pub use solid_angle::rectangle_solid_angle;
 pub use virtual_light::{LitMap, VirtualLight, distribute, lit_maps};
 pub use virtual_sphere::{VirtualSphere, virtual_spheres};

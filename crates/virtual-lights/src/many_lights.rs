@@ -13,6 +13,8 @@ use manylights_scene::{Scene, Transport, Visibility};
 
 use crate::light_gather::{LightBatches, LightGather};
 use crate::parameters::COST;
+use crate::placement::scene_maps;
+use crate::rsm::Map;
 
 /// What a light contributes to a pixel, for methods that gather virtual lights on the adapter. All else
 /// is alike for all of them, and [`VirtualLights`] makes them a [`Method`] of it: one indirect bounce of point-like primary lights; time
@@ -198,6 +200,14 @@ impl<'a> ManyLightFrame<'a> {
         };
         let pixels = on_gpu.resolution().into_iter().product();
         Ok(Self { scene, eye: camera.position, seed, on_gpu, pixels, visibility })
+    }
+
+    /// The maps that place so many lights: to be found before the clock of the work starts.
+    ///
+    /// # Errors
+    /// Where the maps exceed what the adapter holds.
+    pub fn maps(&self, count: u64) -> Result<Vec<Map>, Error> {
+        Ok(scene_maps(self.on_gpu, self.scene, count, self.seed)?)
     }
 
     /// The shadow rays that the transport wants.

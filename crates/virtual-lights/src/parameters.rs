@@ -9,7 +9,8 @@ pub const LIGHTS: ParameterInfo = ParameterInfo {
     name: "lights",
     formerly: None,
     introduced: None,
-    help: "cells of the reflective shadow maps, rounded up to whole square maps",
+    help: "shadow-map cells that are lit: to 1 %, but whole cells on the six faces about a point light \
+           (384 of 400) and one for each primary light; vsgl also lights cells of which any texel is lit",
     kind: ParameterKind::Count { default: 400, min: 1, max: 1 << 24 },
 };
 

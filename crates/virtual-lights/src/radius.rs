@@ -1,6 +1,5 @@
 //! Radii of virtual lights, from their local density: shared by all methods that inflate their lights.
 
-use std::f32::consts::SQRT_2;
 use std::time::Instant;
 
 use glam::Vec3;
@@ -102,10 +101,12 @@ fn field_of_view(lit: &LitMap) -> impl Iterator<Item = f32> {
     let Projection { right, up, orthographic, resolution: [columns, rows], .. } =
         lit.map.projection;
     let lights = lit.lights.iter().flatten();
-    let half_width = right.length();
-    let gamma = SQRT_2 * 2.0 * half_width.atan() / columns as f32;
+    let (columns, rows) = (columns as f32, rows as f32);
+    let [half_width, half_height] = [right, up].map(Vec3::length);
+    // √2 λ/side where a map has as many rows as columns.
+    let gamma = 2.0 * (half_width.atan() / columns).hypot(half_height.atan() / rows);
     let tangent = gamma + gamma.powi(3) / 3.0;
-    let diagonal = 2.0 * (half_width / columns as f32).hypot(up.length() / rows as f32);
+    let diagonal = 2.0 * (half_width / columns).hypot(half_height / rows);
     lights.map(move |light| match orthographic {
         0 => depth(&lit.map.light, light.position) * tangent,
         _ => diagonal,

@@ -29,38 +29,39 @@ pub struct MapCell {
 /// of its cells on the rim.
 const WIDEST_SPOT_MAP: f32 = 1.2;
 
-/// The maps of a light, with at least `count` cells in all.
+/// The maps of a light, with so many cells across what it lights and so many along: the square around a
+/// spot's cone, the scene as a directional light sees it, or a face of the cube about a point light.
+///
+/// These need not be whole numbers: a single map reaches beyond what the light lights until it has whole
+/// cells. Faces of a cube have no room for that, so their numbers are rounded.
 ///
 /// Seed 0 samples cells at their centres, as the papers do. Other seeds shift the sample inside the
 /// cells and turn the maps of a spot about its axis, so that seeds give independent placements.
-pub fn maps(scene: &Scene, light: &Light, count: u64, seed: u64) -> Vec<Map> {
+pub fn maps(scene: &Scene, light: &Light, across: [f64; 2], seed: u64) -> Vec<Map> {
     let [u, v, turn] = placement(seed);
-    let side = |maps: f64| (count as f64 / maps).sqrt().ceil().max(1.0) as u32;
     let size = scene.size();
+    let whole = across.map(|cells| cells.ceil().max(1.0));
+    let resolution = whole.map(|cells| cells as u32);
+    let margin: [f32; 2] = std::array::from_fn(|i| (whole[i] / across[i].max(1.0)) as f32);
+    let rounded = across.map(|cells| (cells / 6_f64.sqrt()).round().max(1.0) as u32);
     let mut projections = match *light {
         Light::Spot { position, direction, outer, .. } if outer < WIDEST_SPOT_MAP => {
             let (right, up) = turned_axes(direction, turn);
-            let edge = outer.tan();
-            let axes = [edge * right, edge * up, direction];
-            vec![Projection::perspective(position, axes, [side(1.0); 2], size)]
+            let [edge_right, edge_up] = margin.map(|margin| margin * outer.tan());
+            let axes = [edge_right * right, edge_up * up, direction];
+            vec![Projection::perspective(position, axes, resolution, size)]
         }
-        Light::Spot { position, .. } | Light::Point { position, .. } => cube_faces()
-            .map(|axes| Projection::perspective(position, axes, [side(6.0); 2], size))
-            .to_vec(),
+        Light::Spot { position, .. } | Light::Point { position, .. } => {
+            cube_faces().map(|axes| Projection::perspective(position, axes, rounded, size)).to_vec()
+        }
         Light::Directional { direction, .. } => {
-            vec![covering(scene, direction, turn, side(1.0))]
+            vec![covering(scene, direction, turn, resolution, margin)]
         }
     };
     for projection in &mut projections {
         projection.offset = [u, v];
     }
     projections.into_iter().map(|projection| Map { projection, light: *light }).collect()
-}
-
-/// The maps of all primary lights, with at least `count` cells in all, split evenly between the lights.
-pub fn scene_maps(scene: &Scene, count: u64, seed: u64) -> impl Iterator<Item = Map> {
-    let share = count.div_ceil(scene.lights.len().max(1) as u64);
-    scene.lights.iter().flat_map(move |light| maps(scene, light, share, seed))
 }
 
 impl Map {
@@ -136,8 +137,15 @@ fn cube_faces() -> [[Vec3; 3]; 6] {
     })
 }
 
-/// The smallest orthographic map in these axes that shows the whole scene.
-fn covering(scene: &Scene, forward: Vec3, turn: f32, side: u32) -> Projection {
+/// The smallest orthographic map in these axes that shows the whole scene, `margin` times as wide and
+/// high.
+fn covering(
+    scene: &Scene,
+    forward: Vec3,
+    turn: f32,
+    resolution: [u32; 2],
+    margin: [f32; 2],
+) -> Projection {
     let (right, up) = turned_axes(forward, turn);
     let mut low = Vec3::INFINITY;
     let mut high = Vec3::NEG_INFINITY;
@@ -154,6 +162,6 @@ fn covering(scene: &Scene, forward: Vec3, turn: f32, side: u32) -> Projection {
     let center = 0.5 * (low + high);
     let half = 0.5 * (high - low);
     let origin = center.x * right + center.y * up + low.z * forward;
-    let axes = [half.x * right, half.y * up, forward];
-    Projection::orthographic(origin, axes, [side; 2], high.z - low.z)
+    let axes = [margin[0] * half.x * right, margin[1] * half.y * up, forward];
+    Projection::orthographic(origin, axes, resolution, high.z - low.z)
 }

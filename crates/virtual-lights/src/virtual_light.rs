@@ -4,7 +4,7 @@ use glam::Vec3;
 use manylights_gpu::{Center, Error, GpuFrame, PassTime, SurfaceRecord};
 use manylights_scene::{Brdf, Scene};
 
-use crate::rsm::{Map, scene_maps};
+use crate::rsm::Map;
 
 /// A small lit patch of surface that stands for one cell of a reflective shadow map.
 #[derive(Clone, Copy, Debug)]
@@ -53,8 +53,8 @@ pub struct LitMap {
     pub lights: Vec<Option<VirtualLight>>,
 }
 
-/// Places virtual lights on what the scene's primary lights see: at least `count` cells in all, split
-/// evenly between the lights. Cells without flux or surface carry no light and are left out.
+/// Places virtual lights on what the maps of the scene's primary lights see. Cells without flux or
+/// surface carry no light and are left out.
 ///
 /// Returns the lights in a fixed order, and the time of the passes that placed them.
 ///
@@ -63,10 +63,9 @@ pub struct LitMap {
 pub fn distribute(
     frame: &GpuFrame,
     scene: &Scene,
-    count: u64,
-    seed: u64,
+    maps: &[Map],
 ) -> Result<(Vec<VirtualLight>, Vec<PassTime>), Error> {
-    let (maps, times) = lit_maps(frame, scene, count, seed)?;
+    let (maps, times) = lit_maps(frame, scene, maps)?;
     Ok((maps.into_iter().flat_map(|map| map.lights).flatten().collect(), times))
 }
 
@@ -78,12 +77,11 @@ pub fn distribute(
 pub fn lit_maps(
     frame: &GpuFrame,
     scene: &Scene,
-    count: u64,
-    seed: u64,
+    maps: &[Map],
 ) -> Result<(Vec<LitMap>, Vec<PassTime>), Error> {
     let mut lit = Vec::new();
     let mut times = Vec::new();
-    for map in scene_maps(scene, count, seed) {
+    for &map in maps {
         let (surfaces, passes) = frame.rasterise(&map.projection)?;
         // To a method they are one pass.
         times.extend(passes.into_iter().map(|time| PassTime { pass: "distribute", ..time }));

@@ -4,6 +4,7 @@ use manylights_gpu::{Error, GpuFrame, PassTime};
 use manylights_scene::Scene;
 
 use crate::radius::{RadiusRule, radii};
+use crate::rsm::Map;
 use crate::virtual_light::{VirtualLight, lit_maps};
 
 /// A virtual light and the sphere that stands for it.
@@ -23,11 +24,10 @@ pub struct VirtualSphere {
 pub fn virtual_spheres(
     frame: &GpuFrame,
     scene: &Scene,
-    count: u64,
+    maps: &[Map],
     (rule, scale): (RadiusRule, f32),
-    seed: u64,
 ) -> Result<(Vec<VirtualSphere>, Vec<PassTime>), Error> {
-    let (maps, mut times) = lit_maps(frame, scene, count, seed)?;
+    let (maps, mut times) = lit_maps(frame, scene, maps)?;
     let (radii, time) = radii(scene, &maps, rule);
     times.push(time);
     let lights = maps.into_iter().flat_map(|map| map.lights).flatten();

@@ -1,7 +1,7 @@
 //! The adapter's texels against the virtual lights that the processor makes of the same cells.
 
 use manylights_gpu::{Gpu, GpuFrame, SurfaceRecord};
-use manylights_virtual_lights::{LitTexel, lit_maps, lit_texels};
+use manylights_virtual_lights::{LitTexel, lit_maps, lit_texels, scene_maps};
 
 #[test]
 fn texels_are_the_virtual_lights_of_their_cells() {
@@ -11,7 +11,8 @@ fn texels_are_the_virtual_lights_of_their_cells() {
         let scene = manylights_scene::load(name, None).expect("built in");
         let frame = GpuFrame::new(&gpu, &scene, &scene.cameras[0], [4, 4]).expect("fits");
         for (count, seed) in [(1, 0), (500, 0), (500, 3)] {
-            let (maps, _) = lit_maps(&frame, &scene, count, seed).expect("maps");
+            let maps = scene_maps(&frame, &scene, count, seed).expect("maps");
+            let (maps, _) = lit_maps(&frame, &scene, &maps).expect("maps");
             for lit in maps {
                 let (map, _) = lit_texels(&frame, &lit.map).expect("texels");
                 let texels: Vec<LitTexel> = gpu.read(&map.texels).expect("read-back");
@@ -49,7 +50,8 @@ fn flux_is_that_of_the_cell_times_the_quotient_of_its_cosines() {
     let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
     let scene = manylights_scene::load("trio", None).expect("built in");
     let frame = GpuFrame::new(&gpu, &scene, &scene.cameras[0], [4, 4]).expect("fits");
-    let (maps, _) = lit_maps(&frame, &scene, 2000, 3).expect("maps");
+    let maps = scene_maps(&frame, &scene, 2000, 3).expect("maps");
+    let (maps, _) = lit_maps(&frame, &scene, &maps).expect("maps");
     let mut farthest: f32 = 1.0;
     for lit in maps {
         let columns = lit.map.projection.resolution[0];
@@ -75,7 +77,7 @@ fn refined_cells_add_up() {
     let frame = GpuFrame::new(&gpu, &scene, &scene.cameras[0], [4, 4]).expect("fits");
     let sums = |side: u32| {
         let mut sums = [0.0_f64; 2];
-        for map in manylights_virtual_lights::scene_maps(&scene, 600, 0) {
+        for map in scene_maps(&frame, &scene, 600, 0).expect("maps") {
             let (map, _) = lit_texels(&frame, &map.refined(side)).expect("texels");
             let texels: Vec<LitTexel> = gpu.read(&map.texels).expect("read-back");
             for texel in texels {

@@ -86,6 +86,14 @@ fn field_of_view() {
     let middle = found[(side * side / 2) as usize];
     let expected = DISTANCE * (angle + angle.powi(3) / 3.0);
     assert!((middle / expected - 1.0).abs() < 1e-5, "{middle} {expected}");
+    // The diagonal of cells that are half as high.
+    let mut flat = lit(side, |_, at| Some(at));
+    flat.map.projection.resolution[1] *= 2;
+    let (flat, _) = radii(&scene(), &[flat], RadiusRule::FieldOfView);
+    let angle = (FRAC_PI_2 / side as f32).hypot(FRAC_PI_2 / (2 * side) as f32);
+    let expected = DISTANCE * (angle + angle.powi(3) / 3.0);
+    let ratio = flat[(side * side / 2) as usize] / expected;
+    assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
     // Proportional to the distance from the primary light.
     let corner = found[0] / middle;
     let farther = (2.0 * (1.0 - 1.0 / side as f32).powi(2) + 1.0).sqrt();

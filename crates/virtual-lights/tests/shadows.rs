@@ -3,14 +3,15 @@
 use manylights_gpu::{Center, Gpu, GpuFrame, Shadows, SurfaceRecord};
 use manylights_scene::bvh::Bvh;
 use manylights_scene::{Light, Scene};
-use manylights_virtual_lights::distribute;
+use manylights_virtual_lights::{distribute, scene_maps};
 
 /// Share of pairs of pixel and light on which the two walks disagree. Their roundings differ where a ray
 /// grazes an edge.
 fn disagreement(scene: &Scene, resolution: [u32; 2], lights: u64) -> f64 {
     let gpu = Gpu::new(None).expect("an adapter: scripts/test installs one");
     let frame = GpuFrame::new(&gpu, scene, &scene.cameras[0], resolution).expect("it fits");
-    let (lights, _) = distribute(&frame, scene, lights, 1).expect("lights");
+    let maps = scene_maps(&frame, scene, lights, 1).expect("maps");
+    let (lights, _) = distribute(&frame, scene, &maps).expect("lights");
     let centers: Vec<_> = lights.iter().map(Center::from).collect();
     let shadows = Shadows::new(&frame, scene).expect("the hierarchy fits");
     let occluded = shadows.occluded_lights(&centers).expect("a pass");

@@ -52,15 +52,15 @@ impl Estimator for Vpl {
         _: &(),
     ) -> Result<ManyLightRun<'a>, Error> {
         let settings = Settings::new(parameters);
-        let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
+        let ManyLightFrame { scene, eye, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
         let kinds = Reflectances::of_scene(scene);
-        let shadows = frame.shadows()?;
+        let (maps, shadows) = (frame.maps(settings.lights)?, frame.shadows()?);
         let gather =
             gather::gather(gpu, (on_gpu.surfaces(), pixels), eye, &kinds, &settings, shadows)?;
         let batches_a_step = PAIRS_A_STEP / (u64::from(pixels) * LAMBERT_CAPACITY as u64);
         let place = move |gather: &LightGather| {
-            let (lights, times) = distribute(on_gpu, scene, settings.lights, seed)?;
+            let (lights, times) = distribute(on_gpu, scene, &maps)?;
             Ok((gather::batches(gather, &lights)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))

@@ -6,7 +6,7 @@ use manylights_gpu::{
     Binding, Buffer, Error, Gpu, GpuFrame, PassTime, Reflectances, Resource, SurfaceRecord, link,
 };
 use manylights_scene::{Brdf, Scene};
-use manylights_virtual_lights::{LIT_TEXEL, LitTexel, LitTexels, lit_texels, scene_maps};
+use manylights_virtual_lights::{LIT_TEXEL, LitTexel, LitTexels, Map, lit_texels};
 
 use crate::albedo::{ALBEDOS, albedos, exact_lobes};
 use crate::{Approximation, Settings};
@@ -107,7 +107,7 @@ pub fn filter_shader(kinds: &Reflectances, lobe: Approximation) -> Result<String
     link("filter", include_str!("shaders/filter.wesl"), &modules, &features)
 }
 
-/// The lights that a picture uses, and the passes that made them. Groups that emit nothing are left
+/// The lights that a picture with these maps uses, and the passes that made them. Groups that emit nothing are left
 /// out.
 ///
 /// # Errors
@@ -115,24 +115,23 @@ pub fn filter_shader(kinds: &Reflectances, lobe: Approximation) -> Result<String
 pub fn gaussian_lights(
     frame: &GpuFrame,
     scene: &Scene,
+    maps: &[Map],
     settings: &Settings,
-    seed: u64,
 ) -> Result<(Vec<GaussianLight>, Vec<PassTime>), Error> {
     let materials = Materials::of_scene(frame.gpu(), scene)?;
-    lights_of_materials(frame, scene, &materials, settings, seed)
+    lights_of_materials(frame, maps, &materials, settings)
 }
 
 /// [`gaussian_lights`] of a scene whose materials are known.
 pub(crate) fn lights_of_materials(
     frame: &GpuFrame,
-    scene: &Scene,
+    maps: &[Map],
     materials: &Materials,
     settings: &Settings,
-    seed: u64,
 ) -> Result<(Vec<GaussianLight>, Vec<PassTime>), Error> {
     let mut lights = Vec::new();
     let mut times = Vec::new();
-    for map in scene_maps(scene, settings.lights, seed) {
+    for map in maps {
         let (texels, passes) = lit_texels(frame, &map.refined(settings.texels))?;
         times.extend(passes);
         let groups = map.projection.resolution;

@@ -104,10 +104,11 @@ fn filtered_texels_of(scene: &Scene, count: u64, side: u32, lobe: Approximation)
     let name = &scene.name;
     let frame = GpuFrame::new(&GPU, scene, &scene.cameras[0], [4, 4]).expect("fits");
     let settings = Settings { lights: count, texels: side, lobe, ..SETTINGS };
-    let (lights, _) = gaussian_lights(&frame, scene, &settings, 3).expect("lights");
+    let maps = scene_maps(&frame, scene, count, 3).expect("maps");
+    let (lights, _) = gaussian_lights(&frame, scene, &maps, &settings).expect("lights");
     let mut lights = lights.into_iter();
     let mut worst: f64 = 0.0;
-    for map in scene_maps(scene, count, 3) {
+    for map in maps {
         let (texels, _) = lit_texels(&frame, &map.refined(side)).expect("texels");
         let surfaces: Vec<SurfaceRecord> = GPU.read(&texels.surfaces).expect("read-back");
         let texels: Vec<LitTexel> = GPU.read(&texels.texels).expect("read-back");

@@ -84,13 +84,13 @@ impl Estimator for Vsl {
         let ManyLightFrame { scene, eye, seed, on_gpu, pixels, .. } = frame;
         let gpu = on_gpu.gpu();
         let kinds = Reflectances::of_scene(scene);
-        let shadows = frame.shadows()?;
+        let (maps, shadows) = (frame.maps(settings.lights)?, frame.shadows()?);
         let gather =
             gather::gather(gpu, (on_gpu.surfaces(), pixels), eye, &kinds, &settings, shadows)?;
         let directions_a_batch = u64::from(pixels) * CAPACITY as u64 * settings.directions_a_pair();
         let batches_a_step = DIRECTIONS_A_STEP / directions_a_batch;
         let place = move |gather: &LightGather| {
-            let (lights, times) = virtual_spheres(on_gpu, scene, &settings, seed)?;
+            let (lights, times) = virtual_spheres(on_gpu, scene, &maps, &settings)?;
             Ok((gather::batches(gather, &lights, seed)?, times))
         };
         Ok(ManyLightRun::new(on_gpu, gather, batches_a_step, place))

@@ -12,7 +12,7 @@ use manylights_metrics::RadianceImage;
 use manylights_reflectance::{Damping, Form};
 use manylights_scene::{Brdf, Lobe};
 use manylights_scene::{Transport, Visibility};
-use manylights_virtual_lights::{RadiusRule, VirtualLight, VirtualLights};
+use manylights_virtual_lights::{RadiusRule, VirtualLight, VirtualLights, scene_maps};
 
 pub(crate) static GPU: LazyLock<Gpu> =
     LazyLock::new(|| Gpu::new(None).expect("an adapter: scripts/test installs one"));
@@ -71,7 +71,8 @@ pub(crate) fn render(
     while !run.step().expect("a step").finished() {}
     let image = run.resolve().expect("a picture");
     let surfaces = GPU.read(on_gpu.surfaces()).expect("read-back");
-    let (lights, _) = virtual_spheres(&on_gpu, &scene, settings, seed).expect("lights");
+    let maps = scene_maps(&on_gpu, &scene, settings.lights, seed).expect("maps");
+    let (lights, _) = virtual_spheres(&on_gpu, &scene, &maps, settings).expect("lights");
     Picture { image, surfaces, eye: camera.position.as_dvec3(), lights }
 }
 

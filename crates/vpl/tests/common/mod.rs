@@ -8,7 +8,7 @@ use manylights_method::{Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
 use manylights_scene::Scene;
 use manylights_scene::{Transport, Visibility};
-use manylights_virtual_lights::{VirtualLights, distribute};
+use manylights_virtual_lights::{VirtualLights, distribute, scene_maps};
 use manylights_vpl::{Settings, Vpl, oracle};
 
 pub(crate) struct Picture {
@@ -64,7 +64,8 @@ pub(crate) fn render_scene(
     let image = run.resolve().expect("a picture");
 
     let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("read-back");
-    let (lights, _) = distribute(&on_gpu, scene, settings.lights, seed).expect("lights");
+    let maps = scene_maps(&on_gpu, scene, settings.lights, seed).expect("maps");
+    let (lights, _) = distribute(&on_gpu, scene, &maps).expect("lights");
     let eye = camera.position.as_dvec3();
     let oracle =
         surfaces.iter().map(|surface| oracle::radiance(surface, eye, &lights, settings)).collect();

@@ -11,7 +11,7 @@ use manylights_metrics::RadianceImage;
 use manylights_scene::presets::PRESETS;
 use manylights_scene::{Brdf, Scene};
 use manylights_scene::{Transport, Visibility};
-use manylights_virtual_lights::{LitTexel, VirtualLights};
+use manylights_virtual_lights::{LitTexel, VirtualLights, scene_maps};
 use manylights_vsgl::{
     Approximation, GaussianLight, GaussianLobe, Settings, Vsgl, gaussian_lights, oracle,
 };
@@ -77,7 +77,8 @@ pub(crate) fn render_scene(
     assert_eq!(passes, ["distribute", "filter", "place", "gather", "submit"]);
 
     let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("read-back");
-    let (lights, _) = gaussian_lights(&on_gpu, scene, settings, seed).expect("lights");
+    let maps = scene_maps(&on_gpu, scene, settings.lights, seed).expect("maps");
+    let (lights, _) = gaussian_lights(&on_gpu, scene, &maps, settings).expect("lights");
     let eye = camera.position.as_dvec3();
     let oracle =
         surfaces.iter().map(|surface| oracle::radiance(surface, eye, &lights, settings)).collect();

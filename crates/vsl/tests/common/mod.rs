@@ -8,7 +8,7 @@ use manylights_method::{Frame, Method, Parameters};
 use manylights_metrics::RadianceImage;
 use manylights_scene::{Brdf, Lobe};
 use manylights_scene::{Transport, Visibility};
-use manylights_virtual_lights::{RadiusRule, VirtualLight, VirtualLights};
+use manylights_virtual_lights::{RadiusRule, VirtualLight, VirtualLights, scene_maps};
 use manylights_vsl::{Sampling, Settings, VirtualSphere, Vsl, oracle, virtual_spheres};
 
 pub(crate) static GPU: LazyLock<Gpu> =
@@ -50,7 +50,8 @@ pub(crate) fn render(scene: &str, resolution: [u32; 2], settings: &Settings, see
     assert_eq!(passes, ["distribute", "radius", "place", "gather", "submit"]);
 
     let surfaces: Vec<SurfaceRecord> = GPU.read(on_gpu.surfaces()).expect("read-back");
-    let (lights, _) = virtual_spheres(&on_gpu, &scene, settings, seed).expect("lights");
+    let maps = scene_maps(&on_gpu, &scene, settings.lights, seed).expect("maps");
+    let (lights, _) = virtual_spheres(&on_gpu, &scene, &maps, settings).expect("lights");
     let eye = camera.position.as_dvec3();
     let truth = |(pixel, surface)| oracle::radiance(pixel, surface, eye, &lights, settings, seed);
     let oracle = surfaces.iter().enumerate().map(truth).collect();
