@@ -20,8 +20,8 @@ pub(crate) struct Sorted {
     cells: [u32; 3],
     block_bytes: usize,
     pixels_a_group: u32,
-    /// As [`Settings::places_a_pixel`].
-    places_a_pixel: u64,
+    /// As [`Settings::places_of_ten_pixels`].
+    places_of_ten_pixels: u64,
     workgroups: [u32; 3],
     count: Arc<Kernel>,
     scatter: Arc<Kernel>,
@@ -98,7 +98,7 @@ impl Sorted {
             cells: settings.grid.vertices.map(|vertices| vertices as u32 - 1),
             block_bytes,
             pixels_a_group: LANES * settings.pixels_a_lane() as u32,
-            places_a_pixel: settings.places_a_pixel(),
+            places_of_ten_pixels: settings.places_of_ten_pixels(),
             workgroups: workgroups(pixels.count, LANES),
             count: Shader::count(settings)?.compile(gpu)?,
             scatter: Shader::scatter(settings)?.compile(gpu)?,
@@ -153,7 +153,7 @@ impl Sorted {
         let mut times = gpu.run(&[count.over(self.workgroups)])?;
         let counts: Vec<u32> = gpu.read(&counts)?;
         let layout = Layout::new(self.cells, &counts[..cells], self.pixels_a_group);
-        if layout.length > self.places_a_pixel.saturating_mul(layout.seen()) {
+        if 10 * layout.length > self.places_of_ten_pixels.saturating_mul(layout.seen()) {
             return Ok((Order::Sparse, times));
         }
         let firsts = gpu.storage("first pixels of cells", &layout.firsts)?;
