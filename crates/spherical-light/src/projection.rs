@@ -32,7 +32,7 @@ pub(crate) fn project_lights(
     Ok((coefficients, times))
 }
 
-/// The projection of spheres, records of [`SphereLight`](crate::SphereLight).
+/// The projection of spheres, records of [`SphereLight`].
 ///
 /// # Errors
 /// Where the shader does not link.
