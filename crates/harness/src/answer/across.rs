@@ -31,7 +31,7 @@ pub(crate) struct Standing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ratio {
     pub(crate) value: f64,
-    /// 95 % interval over scenes; none of one.
+    /// 95 % interval over scenes; none of fewer than [`FEWEST`].
     pub(crate) interval: Option<[f64; 2]>,
     pub(crate) scenes: usize,
 }
@@ -43,21 +43,22 @@ impl Ratio {
         if logarithms.is_empty() {
             return None;
         }
-        let estimate = over_scenes(&logarithms);
-        let Estimate { value, half } = estimate;
-        let interval = half.is_finite().then(|| [value - half, value + half].map(f64::exp));
-        Some(Self { value: value.exp(), interval, scenes: logarithms.len() })
+        let value = mean(logarithms.iter().copied()).exp();
+        let interval = over_scenes(&logarithms)
+            .map(|Estimate { value, half }| [value - half, value + half].map(f64::exp));
+        Some(Self { value, interval, scenes: logarithms.len() })
     }
 }
 
-/// The mean with Student's interval; an infinite one of a single scene.
-fn over_scenes(values: &[f64]) -> Estimate {
-    let value = mean(values.iter().copied());
+/// Scenes from which something is said of others: of two, Student's interval spans orders of magnitude.
+const FEWEST: usize = 3;
+
+/// The mean with Student's interval.
+fn over_scenes(values: &[f64]) -> Option<Estimate> {
     let count = values.len() as f64;
-    match values.len() {
-        1 => Estimate { value, half: f64::INFINITY },
-        _ => Estimate::new(value, &[(variance(values) / count, values.len() - 1)]),
-    }
+    let value = mean(values.iter().copied());
+    let estimate = || Estimate::new(value, &[(variance(values) / count, values.len() - 1)]);
+    (values.len() >= FEWEST).then(estimate)
 }
 
 impl Standing {
@@ -124,11 +125,12 @@ impl Standing {
         }
     }
 
-    /// Whether its errors cannot be told from another's over the scenes that both have, by the same interval.
+    /// Whether its errors cannot be told from another's over the scenes that both have, by the same interval; never of
+    /// so few scenes that there is none.
     pub(crate) fn may_equal(&self, other: &Self) -> bool {
         let ratio = |(scene, own): (&String, &f64)| Some((own / other.errors.get(scene)?).ln());
         let ratios: Vec<f64> = self.errors.iter().filter_map(ratio).collect();
-        ratios.is_empty() || over_scenes(&ratios).holds_zero()
+        over_scenes(&ratios).is_some_and(|estimate| estimate.holds_zero())
     }
 }
 

@@ -15,8 +15,7 @@ use std::path::Path;
 
 use manylights_metrics::RadianceImage;
 
-use crate::answer::significance::{Estimate, Sample};
-use crate::answer::statistics::variance;
+use crate::answer::significance::{Estimate, Sample, jackknife};
 use crate::error::Failure;
 use crate::measurement::cell::{Cell, Outcome};
 use crate::measurement::pictures::image_path;
@@ -112,12 +111,6 @@ fn add(parts: &mut [f64; 2], errors: &[f64], but: Option<usize>) {
     let variance = spread / (count - 1.0);
     parts[0] += mean.powi(2) - variance / count;
     parts[1] += variance;
-}
-
-/// The variance of an estimate from those without each of the seeds, and its degrees of freedom.
-fn jackknife(without: &[f64]) -> (f64, usize) {
-    let count = without.len() as f64;
-    ((count - 1.0).powi(2) / count * variance(without), without.len() - 1)
 }
 
 #[cfg(test)]

@@ -72,9 +72,9 @@ fn image(mut value: impl FnMut(u32) -> f64) -> RadianceImage {
 }
 
 /// The share of trials in which the truth lies in the interval: of both errors, of their difference, of the squared
-/// bias and the variance of the first method.
-fn coverage(seeds: usize, noise: f64) -> [f64; 5] {
-    let mut within = [0.0; 5];
+/// bias and the variance of the first method, of the ratio.
+fn coverage(seeds: usize, noise: f64) -> [f64; 6] {
+    let mut within = [0.0; 6];
     let mut chance = Chance(seeds as u64);
     for _ in 0..TRIALS {
         let halves: [_; 2] =
@@ -108,12 +108,14 @@ fn coverage(seeds: usize, noise: f64) -> [f64; 5] {
             (lower..=upper).contains(&square.sqrt())
         };
         let excess = own.excess_over(&other).expect("all is known");
+        let [lower, upper] = own.ratio_to(&other).expect("all is known");
         let held = [
             holds_root(&own, known[0]),
             holds_root(&other, known[1]),
             holds(excess, known[0] - known[1]),
             holds(parts.squared_bias, FIRST.squared_bias()),
             holds(parts.variance, FIRST.variance()),
+            (lower..=upper).contains(&(known[0] / known[1]).sqrt()),
         ];
         for (count, held) in within.iter_mut().zip(held) {
             *count += f64::from(u8::from(held));

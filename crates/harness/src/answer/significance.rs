@@ -95,6 +95,43 @@ impl Sample {
         estimate(&pairs, self.is_random || other.is_random, self.floor > 0.0)
     }
 
+    /// Both ends of the 95 % interval of the ratio of this RMSE to the other's, the noise of the reference subtracted
+    /// from each: the jackknife's over the seeds that both have, of the ratio's logarithm, and that of the reference's
+    /// noise. `None` where chance has fewer than three seeds, or too little is known or left.
+    pub(crate) fn ratio_to(&self, other: &Self) -> Option<[f64; 2]> {
+        let other_of = |own: &SeedError| other.seeds.iter().find(|other| other.seed == own.seed);
+        let pairs: Vec<[Known; 2]> = self
+            .seeds
+            .iter()
+            .filter_map(|own| Some([Known::from(own), Known::from(other_of(own)?)]))
+            .collect();
+        let is_random = self.is_random || other.is_random;
+        if pairs.is_empty() || is_random && pairs.len() < 3 {
+            return None;
+        }
+        let squares = |but: Option<usize>| {
+            let rest = || pairs.iter().enumerate().filter(|(seed, _)| Some(*seed) != but);
+            let count = rest().count() as f64;
+            [0, 1].map(|side| {
+                let sum: f64 = rest().map(|(_, pair)| pair[side].squared).sum();
+                sum / count - self.floor.powi(2)
+            })
+        };
+        let logarithm = |[own, other]: [f64; 2]| 0.5 * (own / other).ln();
+        let all = squares(None);
+        let mut parts = Vec::new();
+        if is_random {
+            let without = (0..pairs.len()).map(|seed| logarithm(squares(Some(seed))));
+            parts.push(jackknife(&without.collect::<Vec<_>>()));
+        }
+        if self.floor > 0.0 {
+            parts.push(relative_reference_variance(&pairs, all)?);
+        }
+        let Estimate { value, half } = Estimate::new(logarithm(all), &parts);
+        let ends = [value - half, value + half].map(f64::exp);
+        ends.iter().all(|end| end.is_finite()).then_some(ends)
+    }
+
     /// Twice the covariance of a picture with the noise of the reference, as a variance of its squared error with
     /// its degrees of freedom; none of a reference without noise. `None` where it is not known.
     pub(crate) fn reference_variance(&self) -> Option<(f64, usize)> {
@@ -135,6 +172,28 @@ impl Known {
             imbalance: difference(&self.imbalance, &other.imbalance),
         }
     }
+}
+
+/// The variance of an estimate from those without each of the seeds, and its degrees of freedom (Efron and Tibshirani,
+/// "An Introduction to the Bootstrap", 11).
+pub(crate) fn jackknife(without: &[f64]) -> (f64, usize) {
+    let count = without.len() as f64;
+    ((count - 1.0).powi(2) / count * variance(without), without.len() - 1)
+}
+
+/// What the reference's noise adds to the variance of half the logarithm of a ratio of squared errors.
+fn relative_reference_variance(pairs: &[[Known; 2]], all: [f64; 2]) -> Option<(f64, usize)> {
+    let tiles = pairs[0][0].imbalance.len();
+    let is_known = |pair: &[Known; 2]| pair.iter().all(|known| known.imbalance.len() == tiles);
+    if tiles == 0 || !pairs.iter().all(is_known) {
+        return None;
+    }
+    let of_tile = |tile: usize| {
+        let relative =
+            |side: usize| mean(pairs.iter().map(|pair| pair[side].imbalance[tile])) / all[side];
+        (0.5 * (relative(0) - relative(1))).powi(2)
+    };
+    Some(((0..tiles).map(of_tile).sum(), tiles))
 }
 
 fn estimate(errors: &[Known], is_random: bool, is_noisy: bool) -> Option<Estimate> {

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use crate::answer::rows::{Medians, Row, RowResult, SceneAnswer};
 use crate::answer::series::{self, Reached};
-use crate::answer::significance::Estimate;
+use crate::answer::significance::{Estimate, Sample};
 use crate::answer::statistics::Quartiles;
 use crate::measurement::equal_time::miss;
 use crate::measurement::provenance::Provenance;
@@ -171,6 +171,7 @@ impl Place<'_> {
             Column::Interval => sample.interval().map_or_else(String::new, interval),
             Column::RmseRatio => {
                 ratio(&|row| row.samples[self.reference].mean_squared().sqrt())
+                    + &self.ratio_interval(sample)
                     + self.insignificance()
             }
             Column::Bias => split.map_or_else(String::new, |split| part(split.squared_bias)),
@@ -204,6 +205,14 @@ impl Place<'_> {
         };
         let off = budget.map(|budget| miss(seconds(medians), budget));
         if off.is_some_and(|off| off > TOLERANCE) { "!" } else { "" }
+    }
+
+    /// Of the ratio to the baseline, where it is known.
+    fn ratio_interval(&self, sample: &Sample) -> String {
+        let base = self.scene.baseline(self.row).filter(|base| !std::ptr::eq(*base, self.row));
+        let base = base.and_then(Row::medians).map(|base| &base.samples[self.reference]);
+        let ends = base.and_then(|base| sample.ratio_to(base));
+        ends.map_or_else(String::new, |ends| format!(" ({})", interval(ends)))
     }
 
     /// Marks a difference to the baseline that may be chance.
@@ -343,7 +352,7 @@ pub(crate) fn foot(experiment: &Experiment) -> String {
     }
     if experiment.scale.seeds.len() > 1 {
         text.push_str(
-            " RMSE² = bias² + deviation² over seeds; intervals of both by the jackknife.",
+            " RMSE² = bias² + deviation² over seeds; intervals of both, and of the ratio of an RMSE to the base's, by the jackknife.",
         );
     }
     if experiment.columns.contains(&Column::RmseRatio) {
