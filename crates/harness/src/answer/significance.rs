@@ -198,16 +198,19 @@ fn relative_reference_variance(pairs: &[[Known; 2]], all: [f64; 2]) -> Option<(f
 
 fn estimate(errors: &[Known], is_random: bool, is_noisy: bool) -> Option<Estimate> {
     let value = mean(errors.iter().map(|error| error.squared));
-    let reference = reference_variance(errors, is_noisy)?;
+    let reference = reference_variance(errors, is_noisy);
     let count = errors.len() as f64;
     let parts = match errors {
         [] => return None,
-        _ if !is_random => vec![reference],
+        _ if !is_random => vec![reference?],
         // Their spread holds the noise of the reference already.
         [Known { parts, .. }] => vec![spread_of_sum(parts)?],
         _ => {
             let seeds: Vec<_> = errors.iter().map(|error| error.squared).collect();
-            vec![(variance(&seeds) / count, errors.len() - 1), reference]
+            // Old results do not know the reference's part, which is small beside that of seeds.
+            let mut parts = vec![(variance(&seeds) / count, errors.len() - 1)];
+            parts.extend(reference);
+            parts
         }
     };
     Some(Estimate::new(value, &parts))

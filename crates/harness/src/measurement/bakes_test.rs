@@ -339,9 +339,9 @@ fn no_table_tells_the_time_of_a_baked_frame_without_the_bake() {
         let titles: Vec<_> = table.heading.iter().map(|(title, _)| *title).collect();
         (titles, table.lines)
     };
-    assert_eq!(headings(&[0]).0, ["rank", "method", "time ms", "RMSE"]);
+    assert_eq!(headings(&[0]).0, ["rank", "method", "time ms", "RMSE", "95 %"]);
     let (titles, lines) = headings(&[0, 1]);
-    assert_eq!(titles, ["rank", "method", "time ms", "bake ms", "RMSE"]);
+    assert_eq!(titles, ["rank", "method", "time ms", "bake ms", "RMSE", "95 %"]);
     let bakes: Vec<_> = lines.iter().map(|line| line[3].as_str()).collect();
     assert_eq!(bakes, ["0", "7000", ""]);
 }
