@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::*;
 use crate::answer::regression;
-use crate::answer::rows::SceneAnswer;
+use crate::answer::rows::{Row, SceneAnswer};
 use crate::registry::METHODS;
 use crate::show::curves::Figure;
 use crate::show::table;
@@ -67,6 +67,7 @@ fn committed_cells_give_the_committed_tables() {
                 }
             }
         }
+        answers.iter().for_each(|answer| ranks_agree_with_the_marks(&experiment, answer));
         if experiment.scale.seeds.len() == 1 {
             // With several seeds it has bias; the words around it may be put better.
             let machine = SceneCells::provenance(&scenes).expect("cells");
@@ -80,6 +81,33 @@ fn committed_cells_give_the_committed_tables() {
         tables += 1;
     }
     assert!(tables >= 10, "{tables}");
+}
+
+/// What may be chance beside the baseline may have its place, and what may not has another.
+fn ranks_agree_with_the_marks(experiment: &Experiment, answer: &SceneAnswer) {
+    for reference in experiment.references.iter().map(|reference| &reference.name) {
+        let ranks = answer.ranks(experiment, reference);
+        let rank_of = |row: &Row| {
+            let place = answer.rows.iter().position(|other| std::ptr::eq(other, row))?;
+            ranks[place]
+        };
+        for row in &answer.rows {
+            let Some(base) = answer.baseline(row) else { continue };
+            let [budget, base_budget] =
+                [row, base].map(|row| experiment.variants[row.variant].budget);
+            let (Some(own), Some(other)) = (rank_of(row), rank_of(base)) else { continue };
+            if budget != base_budget {
+                continue;
+            }
+            let told = answer.excess(row, reference).filter(|excess| !excess.holds_zero());
+            let agrees = match told {
+                None => own.best <= other.worst && other.best <= own.worst,
+                Some(_) => own != other,
+            };
+            let label = experiment.variants[row.variant].label();
+            assert!(agrees, "{} {label} against {reference}: {own} and {other}", answer.scene);
+        }
+    }
 }
 
 /// The generator of Steele, Lea and Flood (2014), "Fast splittable pseudorandom number generators".
