@@ -44,8 +44,8 @@ pub(crate) struct Estimate {
 
 impl Estimate {
     /// From independent parts of its variance, each with its degrees of freedom: their intervals add as squares.
-    /// Common degrees of freedom (Welch and Satterthwaite) hold the truth too seldom where seeds are few: 84 of 100
-    /// times with two (`coverage_test.rs`).
+    /// Common degrees of freedom (Welch and Satterthwaite), tried in the simulation of `coverage_test.rs`, hold the
+    /// truth too seldom where seeds are few.
     pub(crate) fn new(value: f64, parts: &[(f64, usize)]) -> Self {
         let square = |&(variance, degrees): &(f64, usize)| variance * student_95(degrees).powi(2);
         Self { value, half: parts.iter().map(square).sum::<f64>().sqrt() }

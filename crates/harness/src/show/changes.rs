@@ -1,5 +1,7 @@
 //! The page of `manylights check --page`: what moved, before and after.
 
+use std::collections::BTreeSet;
+
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use manylights_metrics::{RadianceImage, false_color};
@@ -46,8 +48,10 @@ img { image-rendering: pixelated; width: 17rem; max-width: 100%; display: block;
 pub(crate) fn page(moved: &[Moved], changes: &[Change]) -> Result<String, Failure> {
     let mut text = HEAD.to_owned();
     text += &format!("<p>{} quantities moved.</p>\n", moved.len());
+    // Times of a cell may follow those of others.
+    let mut seen = BTreeSet::new();
     let mut cells: Vec<&str> = moved.iter().map(|moved| moved.cell.as_str()).collect();
-    cells.dedup();
+    cells.retain(|cell| seen.insert(*cell));
     for cell in cells {
         let own = moved.iter().filter(|moved| moved.cell == cell);
         text += &format!("<h2>{}</h2>\n{}", escaped(cell), table(own));
